@@ -1,0 +1,1 @@
+"""Joins codegen, device and widgets into the studio and the command line."""

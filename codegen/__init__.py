@@ -1,0 +1,1 @@
+"""Programs, instructions and controller languages: pure Python, no screen, no line, no clock."""

@@ -1,0 +1,1 @@
+"""Everything between the program and a moving axis: line, controller, simulator."""

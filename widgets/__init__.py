@@ -1,0 +1,1 @@
+"""Qt views; they show frozen values and emit what the user did."""
