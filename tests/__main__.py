@@ -1,0 +1,116 @@
+"""Runs every check of the project: `python -m tests [--long]`."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tests.long import collect
+
+ROOT = Path(__file__).resolve().parent.parent
+CHECKS = (
+    ("ruff check", ("-m", "ruff", "check", ".")),
+    ("ruff format", ("-m", "ruff", "format", "--check", "--quiet", ".")),
+    ("mypy --strict", ("-m", "mypy", "--strict", "codegen", "device")),
+)
+NOTHING_COLLECTED = 5
+
+
+@dataclass
+class Totals:
+    """What all parts of the run came to."""
+
+    passed: int = 0
+    failed: int = 0
+    errors: int = 0
+    skipped: int = 0
+    broken: list[str] = field(default_factory=list)
+
+    def add(self, report: Path) -> None:
+        """Adds the counts of one pytest report."""
+        for suite in ElementTree.parse(report).getroot().iter("testsuite"):
+            tests, failed, errors, skipped = (
+                int(suite.get(key, "0")) for key in ("tests", "failures", "errors", "skipped")
+            )
+            self.passed += tests - failed - errors - skipped
+            self.failed += failed
+            self.errors += errors
+            self.skipped += skipped
+
+
+def run_check(name: str, arguments: tuple[str, ...], totals: Totals) -> None:
+    """Runs one static check and shows its output only when it fails."""
+    done = subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True)
+    print(f"{name}: {'ok' if done.returncode == 0 else 'FAILED'}", flush=True)
+    if done.returncode:
+        print(done.stdout + done.stderr, flush=True)
+        totals.broken.append(name)
+
+
+def run_tests(title: str, arguments: list[str], environment: dict[str, str], totals: Totals) -> None:
+    """Runs pytest once and adds up what it reports."""
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report.xml"
+        command = [sys.executable, "-m", "pytest", f"--junitxml={report}", *arguments]
+        print(f"-- {title}", flush=True)
+        code = subprocess.run(command, cwd=ROOT, env=environment).returncode
+        if report.exists():
+            totals.add(report)
+        if code not in (0, 1, NOTHING_COLLECTED) or (code == 1 and not totals.failed + totals.errors):
+            totals.broken.append(f"{title} (pytest ended with {code})")
+
+
+def summary(totals: Totals, seconds: float) -> str:
+    """The closing line, in pytest's own form."""
+    counts = (
+        (totals.failed, "failed"),
+        (totals.passed, "passed"),
+        (totals.skipped, "skipped"),
+        (totals.errors, "errors"),
+    )
+    words = [f"{number} {word}" for number, word in counts if number]
+    words += [f"{name} FAILED" for name in totals.broken]
+    return f" {', '.join(words) or 'nothing ran'} in {seconds:.2f}s ".center(100, "=")
+
+
+def workers() -> list[str]:
+    """Two test processes where the plug-in is there."""
+    return ["-n", "2"] if importlib.util.find_spec("xdist") else []
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Runs everything and returns 0 only when all of it is right."""
+    parser = argparse.ArgumentParser(prog="./studio test", description="Runs every check of the project.")
+    parser.add_argument("--long", action="store_true", help="full counts; writes tests/long/results.json")
+    parser.add_argument("rest", nargs="*", help="only these tests (files or folders)")
+    options, extra = parser.parse_known_args(argv)
+    started = time.monotonic()
+    totals = Totals()
+    with tempfile.TemporaryDirectory() as figures:
+        environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", TWOLETTER_FIGURES=figures)
+        environment.pop("TWOLETTER_LONG", None)
+        limit: list[str] = []
+        if options.long:
+            environment["TWOLETTER_LONG"] = "1"
+            limit = ["--timeout=7200"]
+        for name, arguments in CHECKS:
+            run_check(name, arguments, totals)
+        chosen = [*options.rest, *extra]
+        run_tests("tests", [*workers(), "-m", "not alone", *limit, *chosen], environment, totals)
+        run_tests("tests that measure time", ["-m", "alone", *limit, *chosen], environment, totals)
+        if options.long:
+            print(f"{len(collect(Path(figures)))} figures in tests/long/results.json")
+    print(summary(totals, time.monotonic() - started))
+    return 1 if totals.failed or totals.errors or totals.broken or not totals.passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

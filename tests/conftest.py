@@ -1,0 +1,37 @@
+"""What every test gets: an off-screen display, hypothesis without deadlines, the options of the run."""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+from tests.long import is_long
+
+settings.register_profile("short", deadline=None, max_examples=50, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("long", deadline=None, max_examples=1000, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("long" if is_long() else "short")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Options of this project's tests."""
+    parser.addoption("--approve", action="store_true", help="rewrite the golden files with what comes out now")
+    parser.addoption("--port", default=None, help="a real controller's port, for tests ending in _with_device")
+
+
+@pytest.fixture
+def approve(request: pytest.FixtureRequest) -> bool:
+    """True when golden files are to be rewritten."""
+    return bool(request.config.getoption("--approve"))
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Skips what needs a device that is not there, or the long run."""
+    for item in items:
+        if item.name.split("[")[0].endswith("_with_device") and not config.getoption("--port"):
+            item.add_marker(pytest.mark.skip(reason="needs a controller (--port)"))
+        if item.get_closest_marker("long") and not is_long():
+            item.add_marker(pytest.mark.skip(reason="only in the long run"))

@@ -1,0 +1,137 @@
+"""House rules that the syntax of the code shows."""
+
+from __future__ import annotations
+
+import ast
+import warnings
+
+import pytest
+
+from codegen.twoletter.commands import COMMANDS
+from tests.rules.sources import PACKAGES, python_files, relative, syntax
+
+LONGEST_MODULE = 500
+BROAD = ("Exception", "BaseException")
+SPELLINGS = frozenset(name for name in COMMANDS if len(name) == 2)
+HOME_OF_SPELLINGS = (
+    "codegen/twoletter/",
+    "codegen/smartmotor/",
+    "device/simulator/",
+)
+MOST_SPELLINGS = 6
+
+
+def broad_excepts(tree: ast.Module) -> list[int]:
+    """Lines of handlers that catch everything."""
+    found = []
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.ExceptHandler):
+            continue
+        kinds = node.type.elts if isinstance(node.type, ast.Tuple) else [node.type]
+        if any(kind is None or (isinstance(kind, ast.Name) and kind.id in BROAD) for kind in kinds):
+            found.append(node.lineno)
+    return found
+
+
+@pytest.mark.parametrize("package", ["codegen", "device"])
+def test_nothing_catches_everything(package: str) -> None:
+    wrong = [f"{relative(path)}:{line}" for path in python_files(package) for line in broad_excepts(syntax(path))]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_a_broad_except_is_seen() -> None:
+    text = "try:\n    pass\nexcept (ValueError, Exception):\n    pass\ntry:\n    pass\nexcept:\n    pass\n"
+    assert broad_excepts(ast.parse(text)) == [3, 7]
+
+
+def spelling_tables(tree: ast.Module) -> list[int]:
+    """Lines of literal lists, sets and dicts that hold several spellings of commands."""
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Dict):
+            entries = [key for key in node.keys if key is not None]
+        elif isinstance(node, ast.List | ast.Tuple | ast.Set):
+            entries = node.elts
+        else:
+            continue
+        texts = [entry.value for entry in entries if isinstance(entry, ast.Constant) and isinstance(entry.value, str)]
+        if len(set(texts) & SPELLINGS) >= MOST_SPELLINGS:
+            found.append(node.lineno)
+    return found
+
+
+def test_spellings_of_commands_stand_in_their_tables_only() -> None:
+    wrong = [
+        f"{relative(path)}:{line}: a second table of commands"
+        for path in python_files(*PACKAGES)
+        if not relative(path).startswith(HOME_OF_SPELLINGS)
+        for line in spelling_tables(syntax(path))
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_a_second_table_of_commands_is_seen() -> None:
+    assert spelling_tables(ast.parse("X = {'PR': 1, 'PA': 2, 'SP': 3, 'AC': 4, 'DC': 5, 'BG': 6}")) == [1]
+
+
+def length(path: object) -> int:
+    """Lines of a file."""
+    return len(path.read_text(encoding="utf-8").splitlines())  # type: ignore[attr-defined]
+
+
+def test_modules_stay_short() -> None:
+    lengths = {relative(path): length(path) for path in python_files(*PACKAGES, "tests")}
+    reach = sorted(((lines, name) for name, lines in lengths.items() if lines > 400), reverse=True)
+    if reach:
+        warnings.warn("modules over 400 lines: " + ", ".join(f"{name} {lines}" for lines, name in reach), stacklevel=1)
+    assert not [f"{name}: {lines} lines" for lines, name in reach if lines > LONGEST_MODULE]
+
+
+ASSERTING = ("assert", "check", "expect", "wait_until", "waituntil", "waitsignal", "raises", "fail", "verify", "must_")
+
+
+def asserts(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    """Whether a test can fail by what it says."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.Assert):
+            return True
+        if isinstance(node, ast.Call):
+            name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            if any(word in name.lower() for word in ASSERTING):
+                return True
+    return False
+
+
+def idle_tests(tree: ast.Module) -> list[tuple[int, str]]:
+    """Tests that can not fail."""
+    return [
+        (node.lineno, node.name)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+        and node.name.startswith("test_")
+        and not asserts(node)
+    ]
+
+
+def test_every_test_asserts_something() -> None:
+    wrong = [
+        f"{relative(path)}:{line}: {name} asserts nothing"
+        for path in python_files("tests")
+        if path.name.startswith("test_")
+        for line, name in idle_tests(syntax(path))
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_a_test_without_assertion_is_seen() -> None:
+    assert idle_tests(ast.parse("def test_nothing():\n    print(1)\n")) == [(1, "test_nothing")]
+
+
+def test_nothing_sleeps_in_the_language() -> None:
+    wrong = [
+        f"{relative(path)}:{node.lineno}"
+        for path in python_files("codegen")
+        for node in ast.walk(syntax(path))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "sleep"
+    ]
+    assert not wrong, "\n".join(wrong)
