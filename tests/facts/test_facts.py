@@ -1,0 +1,181 @@
+"""The facts of the manuals, typed by hand, against the command table and the simulator."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from codegen.twoletter.commands import COMMANDS, KEYWORDS
+from codegen.twoletter.evaluate import EvaluationError, evaluate
+from codegen.twoletter.parse import parse_line
+from codegen.twoletter.problems import ERROR_TEXTS
+
+from codegen.models import model
+from codegen.numbers import ONE, as_integer, scaled
+from codegen.twoletter import nodes
+from tests.examples.script import Bench, commands_in
+
+Fact = dict[str, Any]
+
+
+def facts(name: str) -> list[Any]:
+    """The facts of one file as test parameters, named by what they say and where they stand."""
+    rows = tomllib.loads(Path(__file__).with_name(f"{name}.toml").read_text(encoding="utf-8"))["fact"]
+    return [
+        pytest.param(row, id=f"{row.get('command', row.get('model', ''))}-{row.get('fact', index)}-l.{row['line']}")
+        for index, row in enumerate(rows)
+    ]
+
+
+def where(fact: Fact) -> str:
+    """The place in the manual, for messages."""
+    return f"{fact['manual']} l.{fact['line']}"
+
+
+def test_there_are_facts_of_every_kind() -> None:
+    counts = {name: len(facts(name)) for name in ("commands", "numbers", "models", "expressions", "wire", "codes")}
+    assert counts["commands"] > 240 and counts["numbers"] > 130 and counts["models"] > 90
+    assert counts["expressions"] > 35 and counts["wire"] > 25 and counts["codes"] >= 3
+
+
+@pytest.mark.parametrize("fact", facts("commands"))
+def test_every_command_of_the_manuals_is_in_the_table(fact: Fact) -> None:
+    name = fact["command"]
+    if name in KEYWORDS or name.lstrip("_") in KEYWORDS:
+        return
+    assert name in COMMANDS, where(fact)
+    for each in fact["models"]:
+        assert COMMANDS[name].known_to(model(each)), f"{name} on {each}: {where(fact)}"
+
+
+def ends(name: str, model_name: str, stepper: bool = False) -> tuple[set[float], set[float]]:
+    """Lowest and highest values of a command and of its places."""
+    row = COMMANDS[name]
+    kind = model(model_name)
+    pairs = [row.range_for(kind, stepper), *(place.range_for(kind, stepper) for place in row.fields_for(kind))]
+    return {low for low, _ in pairs if low is not None}, {high for _, high in pairs if high is not None}
+
+
+def defaults(name: str, model_name: str) -> set[object]:
+    """Defaults of a command and of its places."""
+    row = COMMANDS[name]
+    return {row.default, *(place.default for place in row.fields_for(model(model_name)))}
+
+
+def steps(name: str, model_name: str) -> set[float]:
+    """Resolutions of a command and of its places."""
+    row = COMMANDS[name]
+    return {step for step in (row.step, *(place.step for place in row.fields_for(model(model_name)))) if step}
+
+
+def holds(fact: Fact, model_name: str) -> bool:
+    """Whether the table says what the manual says."""
+    name, kind, value = fact["command"], fact["fact"], fact["value"]
+    row = COMMANDS[name]
+    lows, highs = ends(name, model_name, kind == "stepper_high")
+    whole = {int(high) for high in highs}
+    answers = {
+        "low": value in lows,
+        "model_low": value in lows,
+        "high": value in highs,
+        "model_high": value in highs,
+        "stepper_high": value in highs,
+        "whole_high": value in whole,
+        "at_least": any(high >= value for high in highs),
+        "at_most_low": any(low <= value for low in lows),
+        "default": value in defaults(name, model_name),
+        "rounded_default": any(
+            isinstance(each, int | float) and abs(each - value) < 0.01 for each in defaults(name, model_name)
+        ),
+        "step": any(abs(step - value) <= value * 0.02 for step in steps(name, model_name)),
+        "moving": (row.moving or row.moving_mode == "jog")
+        if value
+        else (not row.moving or row.moving_mode in ("jog", "idle")),
+        "program": row.program == value,
+        "port": row.port == value,
+        "trippoint": row.trippoint == value,
+        "queries": (row.reply is not None) == value,
+        "operand": (row.operand is not None) == value,
+    }
+    return answers[kind]
+
+
+@pytest.mark.parametrize("fact", facts("numbers"))
+def test_ranges_defaults_and_validity(fact: Fact) -> None:
+    for each in fact["models"]:
+        if not COMMANDS[fact["command"]].known_to(model(each)):
+            continue
+        row = COMMANDS[fact["command"]]
+        message = f"{fact['command']} {fact['fact']} on {each} should be {fact['value']} ({where(fact)}): {row}"
+        assert holds(fact, each), message
+
+
+@pytest.mark.parametrize("fact", facts("models"))
+def test_what_each_controller_has(fact: Fact) -> None:
+    value = getattr(model(fact["model"]), fact["fact"])
+    if isinstance(value, tuple):
+        value = list(value)
+    assert value == fact["value"], where(fact)
+
+
+class Given:
+    """Names with given values, for expressions."""
+
+    def __init__(self, values: dict[str, int]) -> None:
+        self.values = values
+
+    def variable(self, name: str) -> int:
+        """A variable's value."""
+        return self.values[name]
+
+    def element(self, name: str, index: int) -> int:
+        """No arrays here."""
+        raise EvaluationError(57)
+
+    def operand(self, name: str, suffix: str) -> int:
+        """No operands here."""
+        raise EvaluationError(58)
+
+    def keyword(self, name: str) -> int:
+        """No keywords here."""
+        raise EvaluationError(57)
+
+    def function(self, name: str, argument: int) -> int:
+        """No inputs here."""
+        raise EvaluationError(57)
+
+
+@pytest.mark.parametrize("fact", facts("expressions"))
+def test_expressions(fact: Fact) -> None:
+    statement = parse_line(f"RESULT={fact['expression']}").statements[0]
+    assert isinstance(statement, nodes.Assignment), where(fact)
+    values = {name: scaled(text) for name, _, text in (given.partition("=") for given in fact.get("names", []))}
+    came = evaluate(statement.value, Given(values))
+    wanted = scaled(fact["value"])
+    assert abs(came - wanted) <= round(fact.get("tolerance", 0) * ONE), (
+        f"{fact['expression']} is {came / ONE} (floor {as_integer(came)}), not {fact['value']} ({where(fact)})"
+    )
+
+
+@pytest.mark.parametrize("fact", facts("codes"))
+def test_error_texts(fact: Fact) -> None:
+    assert ERROR_TEXTS[fact["code"]] == fact["text"], where(fact)
+
+
+@pytest.mark.parametrize("fact", facts("wire"))
+def test_what_comes_back(fact: Fact) -> None:
+    bench = Bench.of(fact["model"])
+    if "stimulus" in fact:
+        signal, _, value = fact["stimulus"].partition(",")
+        bench.simulation.stimulus(signal, float(value))
+        bench.run(0.01)
+    if fact.get("before"):
+        bench.answer(fact["before"], commands_in(fact["before"]))
+    came = bench.answer(fact["send"].rstrip("\r"), 1)
+    if "reply_value" in fact:
+        assert int(came.strip(": \r\n")) == fact["reply_value"], where(fact)
+        return
+    wanted = fact["reply"].replace("<07>", "\x07").replace("<FF>", "\xff")
+    assert came == wanted, where(fact)
