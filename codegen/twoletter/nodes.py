@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-ONE = 65536  # the scaled value of 1
+from codegen.twoletter.fixed import ONE as ONE
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,8 +200,28 @@ class Dimension:
     span: Span = field(default=NOWHERE, compare=False)
 
 
+@dataclass(frozen=True, slots=True)
+class SegmentSpeed:
+    """`< n` behind LI, VP, CR: the vector speed of this segment; `> n` (end speed, later controllers) has `end` set."""
+
+    value: Expression
+    end: bool = False
+    span: Span = field(default=NOWHERE, compare=False)
+
+
 Argument: TypeAlias = (
-    Expression | Empty | Query | Axes | Target | Format | Character | Port | NoLineEnd | Formatted | Dimension
+    Expression
+    | Empty
+    | Query
+    | Axes
+    | Target
+    | Format
+    | Character
+    | Port
+    | NoLineEnd
+    | Formatted
+    | Dimension
+    | SegmentSpeed
 )
 
 
@@ -261,12 +281,13 @@ class Nothing:
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """Text that is no statement of any controller: why, and the controller's error code."""
+    """Text that is no statement of any controller: why, where (`place`), and the controller's error code."""
 
     text: str
     rule: str
     code: int
     span: Span = field(default=NOWHERE, compare=False)
+    place: Span = field(default=NOWHERE, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,6 +298,7 @@ class Foreign:
     rule: str
     code: int
     span: Span = field(default=NOWHERE, compare=False)
+    place: Span = field(default=NOWHERE, compare=False)
 
 
 Statement: TypeAlias = Command | Label | Assign | Print | Comment | Nothing | Broken | Foreign
