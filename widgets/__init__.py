@@ -1,1 +1,1 @@
-"""Qt views; they show frozen values and emit what the user did."""
+"""Qt views of programs and live controllers; signals go up, calls come down."""

@@ -1,0 +1,118 @@
+"""Fusion with our own palettes; light or dark as the system says, or as the person chose."""
+
+from __future__ import annotations
+
+import tomllib
+from enum import StrEnum
+from typing import Any
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication, QStyleFactory
+
+import resources
+from widgets.parts.look import PROPERTY, Look, look
+
+
+class Choice(StrEnum):
+    """What the person asked for."""
+
+    SYSTEM = "system"
+    LIGHT = "light"
+    DARK = "dark"
+
+
+class Theme(QObject):
+    """Keeps the application in the chosen colours and follows the system when told to."""
+
+    def __init__(self, application: QApplication, choice: Choice = Choice.SYSTEM) -> None:
+        super().__init__(application)
+        self._application = application
+        self._table = read_table()
+        self.choice = choice
+        application.setStyle(QStyleFactory.create("Fusion"))
+        application.styleHints().colorSchemeChanged.connect(lambda _: self._follow())
+        self.choose(choice)
+
+    def choose(self, choice: Choice) -> None:
+        """Light, dark, or whatever the system has."""
+        self.choice = choice
+        hints = self._application.styleHints()
+        wanted = {Choice.LIGHT: Qt.ColorScheme.Light, Choice.DARK: Qt.ColorScheme.Dark}.get(choice, Qt.ColorScheme.Unknown)
+        hints.setColorScheme(wanted)
+        self._follow()
+
+    def _follow(self) -> None:
+        if self.choice is Choice.SYSTEM:
+            dark = self._application.styleHints().colorScheme() is Qt.ColorScheme.Dark
+        else:
+            dark = self.choice is Choice.DARK
+        self._wear(make_look(self._table, dark))
+
+    def _wear(self, wanted: Look) -> None:
+        application = self._application
+        if application.property(PROPERTY) == wanted:
+            return
+        application.setProperty(PROPERTY, wanted)
+        application.setFont(wanted.body_font())
+        application.setPalette(make_palette(wanted))
+        application.setStyleSheet(style_sheet(self._table, wanted))
+
+
+def read_table() -> dict[str, Any]:
+    """The rows of `theme.toml`."""
+    return tomllib.loads(resources.path("theme.toml").read_text(encoding="utf-8"))
+
+
+def make_look(table: dict[str, Any], dark: bool) -> Look:
+    """The light or the dark theme of the table."""
+    return Look(dark=dark, colours=table["dark" if dark else "light"], space=table["space"], fonts=table["fonts"])
+
+
+def make_palette(wanted: Look) -> QPalette:
+    """Qt's own roles from our tokens, disabled ones included."""
+    role = QPalette.ColorRole
+    tokens = {
+        role.Window: "window", role.WindowText: "text", role.Base: "surface", role.AlternateBase: "raised",
+        role.Text: "text", role.Button: "raised", role.ButtonText: "text", role.BrightText: "stop",
+        role.ToolTipBase: "raised", role.ToolTipText: "text", role.PlaceholderText: "quiet",
+        role.Highlight: "selection", role.HighlightedText: "selection_text", role.Link: "accent",
+        role.LinkVisited: "group_flow", role.Accent: "accent", role.Mid: "line", role.Dark: "border",
+        role.Light: "raised", role.Midlight: "window", role.Shadow: "border",
+    }  # fmt: skip
+    palette = QPalette()
+    for each, token in tokens.items():
+        palette.setColor(each, wanted.colour(token))
+    for each in (role.WindowText, role.Text, role.ButtonText):
+        palette.setColor(QPalette.ColorGroup.Disabled, each, wanted.colour("disabled"))
+    return palette
+
+
+def style_sheet(table: dict[str, Any], wanted: Look) -> str:
+    """The one style sheet, its tokens filled in."""
+    sheet: str = table["style"]["sheet"]
+    words = {
+        **wanted.colours,
+        **{key: str(value) for key, value in wanted.space.items()},
+        "title_points": str(wanted.fonts["title_points"]),
+        "icons": resources.path("icons").as_posix(),
+        "name": "dark" if wanted.dark else "light",
+    }
+    for key, value in words.items():
+        sheet = sheet.replace("{" + key + "}", str(value))
+    return sheet
+
+
+class NoWheel(QObject):
+    """Spin boxes and choices without focus ignore the wheel, so that scrolling a form changes nothing."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        from PySide6.QtWidgets import QAbstractSpinBox, QComboBox
+
+        if event.type() == QEvent.Type.Wheel and isinstance(watched, QAbstractSpinBox | QComboBox) and not watched.hasFocus():
+            event.ignore()
+            return True
+        return False
+
+
+__all__ = ["Choice", "NoWheel", "Theme", "look", "make_look", "make_palette", "read_table", "style_sheet"]

@@ -1,0 +1,1 @@
+"""Choosing what to work with: a serial line, the simulator, or nothing yet."""

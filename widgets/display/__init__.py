@@ -1,0 +1,1 @@
+"""What the controller reports: positions, inputs, outputs, switches, threads, messages."""

@@ -1,0 +1,176 @@
+"""The display: positions, inputs, outputs, switches and threads of whatever is connected."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+
+from device.api import Kind
+from widgets.display.levels import Levels
+from widgets.display.position import AxisReadout
+from widgets.display.readings import axis_shown, switches_of
+from widgets.display.switches import SwitchTable
+from widgets.display.threads import ThreadList
+from widgets.panel import Panel, set_text
+from widgets.parts.kind import KindBadge
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from codegen.setup import Setup
+    from device.api import Controller, Row
+
+AXIS_VALUES = ("position", "commanded", "error", "velocity", "switches", "stop_code")
+EMPTY = "Nothing is connected. Connect a controller or start the simulator to see positions, inputs and outputs here."
+
+
+class DisplayPanel(Panel):
+    """Reads only, except for outputs when I/O control is switched on."""
+
+    title = "Display"
+    moves = True
+    io_control_wanted = Signal(bool)
+    output_wanted = Signal(int, bool)
+    connect_wanted = Signal()
+
+    def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
+        super().__init__(parent)
+        self._clock = clock
+        self._setup: Setup | None = None
+        self._source: list[str] = []
+        self._letters = ""
+        self._threads = 0
+        self.axes: dict[str, AxisReadout] = {}
+        self.badge, self.rate, self.empty = KindBadge(), QLabel(), QLabel(EMPTY)
+        self.inputs, self.outputs, self.switches, self.threads = Levels(), Levels(), SwitchTable(), ThreadList()
+        self.io_control = QCheckBox("I/O control")
+        self._lay_out()
+        self.io_control.clicked.connect(self.io_control_wanted)
+        self.outputs.wanted.connect(self.output_wanted)
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self._fit()
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        if old is None or old.setup is not new.setup:
+            self._setup = new.setup
+            self._fit()
+
+    def show_source(self, text: str) -> None:
+        """The listing that the controller holds, for the words of a waiting thread."""
+        self._source = text.splitlines()
+
+    def watches(self) -> tuple[str, ...]:
+        axes = tuple(f"{name}.{letter.lower()}" for letter in self._letters for name in AXIS_VALUES)
+        return (*axes, "inputs", "outputs", *(f"thread{number}" for number in range(self._threads)))
+
+    def refresh(self, row: Row) -> None:
+        self._fit()
+        if self.controller is None or self._setup is None or self.controller.kind is Kind.OFFLINE:
+            return
+        now = self._clock()
+        for letter, readout in self.axes.items():
+            readout.show_axis(axis_shown(row, letter, self._setup.axis(letter), now))
+            self.switches.show_axis(letter, switches_of(row, letter, now))
+        self.inputs.show_byte(row.value("inputs"), row.stale("inputs", now))
+        self.outputs.show_byte(row.value("outputs"), row.stale("outputs", now))
+        self.threads.show_threads([row.value(f"thread{number}") for number in range(self._threads)], self._source)
+        self._show_rate()
+        self._show_io_control()
+
+    def _show_rate(self) -> None:
+        controller = self.controller
+        assert controller is not None
+        text = f"{controller.rate_hz:.0f} reads/s" if controller.polling else controller.polling_text
+        set_text(self.rate, text)
+
+    def _show_io_control(self) -> None:
+        controller = self.controller
+        assert controller is not None
+        self.io_control.setEnabled(controller.control)
+        self.io_control.setToolTip("Outputs switch when clicked." if controller.control else "Switch from Watch to Control first.")
+        if self.io_control.isChecked() != controller.io_control:
+            self.io_control.setChecked(controller.io_control)
+        allowed = controller.control and controller.io_control
+        self.outputs.show_switchable(allowed, "" if allowed else "Switch on I/O control to switch outputs by a click.")
+
+    def _fit(self) -> None:
+        """Axes, lamps and threads as model and setup have them."""
+        controller = self.controller
+        linked = controller is not None and controller.kind is not Kind.OFFLINE and self._setup is not None
+        self.empty.setVisible(not linked)
+        self._body.setVisible(linked)
+        if controller is not None:
+            self.badge.show_kind(controller.kind)
+        if not linked or controller is None or self._setup is None:
+            return
+        letters, model = controller.axes or self._setup.letters, controller.model
+        if letters != self._letters:
+            self._letters = letters
+            self._show_axes(letters)
+        self._threads = model.threads if model is not None else 1
+        inputs, outputs = (model.inputs, model.outputs) if model is not None else (8, 8)
+        self.inputs.show_names(_names(self._setup.input_names, inputs))
+        self.outputs.show_names(_names(self._setup.output_names, outputs))
+
+    def _show_axes(self, letters: str) -> None:
+        for letter in tuple(self.axes):
+            if letter not in letters:
+                self.axes.pop(letter).deleteLater()
+        for index, letter in enumerate(letters):
+            if letter not in self.axes:
+                self.axes[letter] = AxisReadout(letter)
+            self._positions.insertWidget(index, self.axes[letter])
+        self.switches.show_axes(letters)
+
+    def _lay_out(self) -> None:
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(8, 8, 8, 8)
+        head = QHBoxLayout()
+        head.addWidget(self.badge)
+        head.addStretch(1)
+        head.addWidget(self.rate)
+        self.rate.setProperty("role", "quiet")
+        outer.addLayout(head)
+        self.empty.setWordWrap(True)
+        self.empty.setProperty("role", "quiet")
+        outer.addWidget(self.empty)
+        self._body = QScrollArea()
+        self._body.setWidgetResizable(True)
+        self._body.setFrameShape(QFrame.Shape.NoFrame)
+        inside = QWidget()
+        self._body.setWidget(inside)
+        outer.addWidget(self._body, 1)
+        outer.addStretch(0)
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(8)
+        card = QFrame()
+        card.setProperty("role", "card")
+        self._positions = QVBoxLayout(card)
+        self._positions.setContentsMargins(0, 4, 0, 4)
+        column.addWidget(card)
+        self._add(column, "Inputs", self.inputs)
+        self._add(column, "Outputs", self.outputs, self.io_control)
+        self._add(column, "Switches", self.switches)
+        self._add(column, "Program", self.threads)
+        column.addStretch(1)
+
+    def _add(self, column: QVBoxLayout, heading: str, widget: QWidget, beside: QWidget | None = None) -> None:
+        line = QHBoxLayout()
+        label = QLabel(heading)
+        label.setProperty("role", "heading")
+        line.addWidget(label)
+        line.addStretch(1)
+        if beside is not None:
+            line.addWidget(beside)
+        column.addLayout(line)
+        column.addWidget(widget)
+
+
+def _names(given: tuple[str, ...], count: int) -> list[str]:
+    return [given[index] if index < len(given) else "" for index in range(count)]

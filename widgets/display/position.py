@@ -1,0 +1,158 @@
+"""Where one axis is: large digits in its unit, what was commanded, and whether it moves."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
+
+from widgets.panel import set_text
+from widgets.parts.look import look
+
+
+@dataclass(frozen=True)
+class AxisShown:
+    """Ready texts of one axis; `fraction` is where it stands between its limits, NaN when it has none."""
+
+    position: str = "–"
+    unit: str = ""
+    commanded: str = "–"
+    error: str = "–"
+    speed: str = "–"
+    moving: bool | None = None
+    motor_on: bool | None = None
+    fault: str = ""
+    age: str = ""
+    fraction: float = math.nan
+
+
+class Travel(QWidget):
+    """A thin line from limit to limit with a dot where the axis stands."""
+
+    def __init__(self, letter: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._letter = letter
+        self._fraction = math.nan
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def show_fraction(self, fraction: float) -> None:
+        """0 at the reverse limit, 1 at the forward limit."""
+        same = fraction == self._fraction or (math.isnan(fraction) and math.isnan(self._fraction))
+        if not same:
+            self._fraction = fraction
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(80, 16)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if not math.isfinite(self._fraction):
+            return
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        rect = QRectF(self.rect()).adjusted(7, 0, -7, 0)
+        middle = rect.center().y()
+        painter.setPen(QPen(look().colour("border"), 1.5))
+        painter.drawLine(rect.left(), middle, rect.right(), middle)
+        for x in (rect.left(), rect.right()):
+            painter.drawLine(x, middle - 5, x, middle + 5)
+        outside = not 0 <= self._fraction <= 1
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(look().colour("warning") if outside else look().axis(self._letter))
+        x = rect.left() + rect.width() * min(1.0, max(0.0, self._fraction))
+        painter.drawEllipse(QRectF(x - 5, middle - 5, 10, 10))
+
+
+class AxisReadout(QWidget):
+    """One axis; `show_axis` is its only setter."""
+
+    def __init__(self, letter: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.letter = letter
+        self._shown: AxisShown | None = None
+        self.name = QLabel(letter)
+        self.position, self.unit, self.state = QLabel(), QLabel(), QLabel()
+        self.commanded, self.error, self.age = QLabel(), QLabel(), QLabel()
+        self.travel = Travel(letter)
+        for label in (self.unit, self.commanded, self.error, self.age):
+            label.setProperty("role", "quiet")
+        self._lay_out()
+        self._dress()
+        self.show_axis(AxisShown())
+
+    def show_axis(self, shown: AxisShown) -> None:
+        """Puts the texts up; nothing is touched that has not changed."""
+        if shown == self._shown:
+            return
+        before, self._shown = self._shown, shown
+        set_text(self.position, shown.position)
+        set_text(self.unit, shown.unit)
+        set_text(self.state, _state_words(shown))
+        set_text(self.commanded, f"commanded {shown.commanded}")
+        set_text(self.error, f"error {shown.error}")
+        set_text(self.age, shown.age)
+        self.travel.show_fraction(shown.fraction)
+        if before is None or _mood(before) != _mood(shown):
+            self._colour(shown)
+        self.setAccessibleName(f"{self.letter} axis: {shown.position} {shown.unit}, {_state_words(shown)}")
+
+    def changeEvent(self, event: object) -> None:
+        super().changeEvent(event)  # type: ignore[arg-type]
+        if self._shown is not None and event.type().name in ("PaletteChange", "StyleChange"):  # type: ignore[attr-defined]
+            self._dress()
+            self._colour(self._shown)
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setContentsMargins(8, 4, 8, 4)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(0)
+        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
+        grid.addWidget(self.name, 0, 0, Qt.AlignmentFlag.AlignBottom)
+        grid.addWidget(self.position, 0, 1, right)
+        grid.addWidget(self.unit, 0, 2, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom)
+        grid.addWidget(self.state, 0, 3, right)
+        grid.addWidget(self.commanded, 1, 1, 1, 2, Qt.AlignmentFlag.AlignRight)
+        grid.addWidget(self.error, 1, 3, Qt.AlignmentFlag.AlignRight)
+        grid.addWidget(self.travel, 2, 0, 1, 3)
+        grid.addWidget(self.age, 2, 3, Qt.AlignmentFlag.AlignRight)
+        grid.setColumnStretch(1, 3)
+        grid.setColumnStretch(3, 2)
+
+    def _dress(self) -> None:
+        """Fonts and the axis colour."""
+        self.position.setFont(look().digits_font())
+        self.name.setFont(look().digits_font(16))
+        for label in (self.commanded, self.error, self.state, self.unit):
+            label.setFont(look().digits_font(look().body_points))
+        self.name.setStyleSheet(f"color: {look().axis(self.letter).name()}; font-weight: 700;")
+
+    def _colour(self, shown: AxisShown) -> None:
+        mood = _mood(shown)
+        number = "stale" if mood == "stale" else "text"
+        state = {"stale": "stale", "fault": "fault", "moving": "accent"}.get(mood, "text")
+        self.position.setStyleSheet(f"color: {look().colour(number).name()};")
+        weight = "600" if mood in ("moving", "fault") else "400"
+        self.state.setStyleSheet(f"color: {look().colour(state).name()}; font-weight: {weight};")
+
+
+def _mood(shown: AxisShown) -> str:
+    if shown.age:
+        return "stale"
+    if shown.fault:
+        return "fault"
+    return "moving" if shown.moving else "still"
+
+
+def _state_words(shown: AxisShown) -> str:
+    """▲ moving, ■ stopped, ! fault: a shape and a word."""
+    if shown.fault:
+        return f"! {shown.fault}"
+    if shown.moving is None:
+        return "? unknown"
+    if shown.moving:
+        return f"▲ {shown.speed}"
+    return "■ motor off" if shown.motor_on is False else "■ stopped"

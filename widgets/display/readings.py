@@ -1,0 +1,114 @@
+"""From a row of raw controller numbers to the words and lamps that are shown. Pure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from widgets.display.position import AxisShown
+from widgets.parts.units import NOTHING, scale_of, shown
+
+if TYPE_CHECKING:
+    from codegen.setup import Axis
+    from device.api import Row
+
+# bits of TS (spec/tables.json, TS_bits)
+MOVING, ERROR, MOTOR_OFF, FORWARD_FREE, REVERSE_FREE, HOME = 128, 64, 32, 8, 4, 2
+# stop codes that are worth a word of their own (spec/tables.json, stop_codes)
+STOP_WORDS = {6: "abort input", 8: "off on error", 99: "not in position"}
+
+
+@dataclass(frozen=True)
+class Switches:
+    """State of one axis' switches; None where it is not known."""
+
+    forward: bool | None = None  # True: the limit is active
+    reverse: bool | None = None
+    home: bool | None = None  # level of the home input
+    motor_on: bool | None = None
+    moving: bool | None = None
+    error: bool | None = None  # following error beyond ER
+    stale: bool = False
+
+
+def switches_of(row: Row, letter: str, now: float) -> Switches:
+    """Reads the TS byte of an axis."""
+    key = f"switches.{letter.lower()}"
+    value = row.value(key)
+    if not math.isfinite(value):
+        return Switches()
+    bits = int(value)
+    return Switches(
+        forward=not bits & FORWARD_FREE,
+        reverse=not bits & REVERSE_FREE,
+        home=bool(bits & HOME),
+        motor_on=not bits & MOTOR_OFF,
+        moving=bool(bits & MOVING),
+        error=bool(bits & ERROR),
+        stale=row.stale(key, now),
+    )
+
+
+def fault_of(switches: Switches, stop_code: float) -> str:
+    """The worst that can be said of an axis, or nothing."""
+    if switches.forward:
+        return "at forward limit"
+    if switches.reverse:
+        return "at reverse limit"
+    if switches.error:
+        return "following error"
+    if math.isfinite(stop_code) and not switches.moving:
+        return STOP_WORDS.get(int(stop_code), "")
+    return ""
+
+
+def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
+    """Everything the position read-out shows of one axis."""
+    low = letter.lower()
+    position = row.value(f"position.{low}")
+    switches = switches_of(row, letter, now)
+    unit = axis.symbol
+    error = row.value(f"error.{low}")
+    return AxisShown(
+        position=shown(position, axis),
+        unit=unit,
+        commanded=shown(row.value(f"commanded.{low}"), axis),
+        error=NOTHING if not math.isfinite(error) else f"{shown(error, axis)} {unit}",
+        speed=_speed(row.value(f"velocity.{low}"), axis, unit),
+        moving=switches.moving,
+        motor_on=switches.motor_on,
+        fault=fault_of(switches, row.value(f"stop_code.{low}")),
+        age=age_of(row, f"position.{low}", now),
+        fraction=_fraction(position, axis),
+    )
+
+
+def age_of(row: Row, key: str, now: float) -> str:
+    """"12 s old" when the value is older than it should be, else nothing."""
+    if not math.isfinite(row.value(key)) or not row.stale(key, now):
+        return ""
+    seconds = max(0.0, now - row.time(key))
+    return f"{seconds:.1f} s old" if seconds < 10 else f"{seconds:.0f} s old" if seconds < 120 else f"{seconds / 60:.0f} min old"
+
+
+def bit(value: float, number: int) -> bool | None:
+    """Bit `number` (from 1) of a byte of inputs or outputs; None when it is not known."""
+    return None if not math.isfinite(value) else bool(int(value) >> (number - 1) & 1)
+
+
+def _speed(counts_s: float, axis: Axis, unit: str) -> str:
+    if not math.isfinite(counts_s):
+        return "moving"
+    return f"{shown(counts_s, axis, decimals=2)} {unit}/s"
+
+
+def _fraction(position: float, axis: Axis) -> float:
+    """Where the axis stands between BL (0) and FL (1), when both are set up as numbers."""
+    try:
+        low, high = float(axis.reverse_limit), float(axis.forward_limit)
+    except ValueError:
+        return math.nan
+    if high <= low or not math.isfinite(position):
+        return math.nan
+    return (position / scale_of(axis) - low) / (high - low)

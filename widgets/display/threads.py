@@ -1,0 +1,69 @@
+"""What the program is doing: the line each thread is on, and what it waits for."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from widgets.panel import set_text
+from widgets.parts.look import look
+
+
+class ThreadList(QWidget):
+    """One line a thread; `show_threads` is its setter."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._rows: list[QLabel] = []
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(2)
+
+    def show_threads(self, lines: list[float], source: list[str]) -> None:
+        """`lines`: line number of each thread, -1 when it does not run, NaN when not known; `source`: the program."""
+        while len(self._rows) < len(lines):
+            label = QLabel()
+            label.setFont(look().body_font())
+            label.setMinimumHeight(24)
+            self._rows.append(label)
+            self._column.addWidget(label)
+        for number, label in enumerate(self._rows):
+            label.setVisible(number < len(lines))
+            if number < len(lines):
+                set_text(label, thread_words(number, lines[number], source))
+
+    def words(self) -> list[str]:
+        """What is shown now."""
+        return [label.text() for label in self._rows if not label.isHidden()]
+
+
+WAITS = {
+    "AM": "the end of the move",
+    "MC": "the axis to be in position",
+    "AI": "an input",
+    "AD": "a distance",
+    "AR": "a distance",
+    "AP": "a position",
+    "MF": "a position",
+    "MR": "a position",
+    "AS": "full speed",
+    "AT": "a time",
+    "AV": "a vector distance",
+    "WT": "a time",
+    "WC": "the contour",
+    "IN": "an answer",
+}
+
+
+def thread_words(number: int, line: float, source: list[str]) -> str:
+    """"▲ Thread 0: line 4, waiting for an input (AI 1)"."""
+    if not math.isfinite(line):
+        return f"?  Thread {number}: not known"
+    if line < 0:
+        return f"■  Thread {number}: not running"
+    at = int(line)
+    text = source[at].strip() if at < len(source) else ""
+    waits = WAITS.get(text[:2].upper())
+    doing = f", waiting for {waits} ({text})" if waits else f"  ({text})" if text else ""
+    return f"▲  Thread {number}: line {at}{doing}"

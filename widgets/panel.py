@@ -1,0 +1,46 @@
+"""What a live panel is: a widget that says what it needs polled and is handed the newest row while it is visible."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import QWidget
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from device.api import Controller, Notice, Row
+
+
+class Panel(QWidget):
+    """A dock's content. `moves` is True where something on the machine can be moved or switched from it."""
+
+    title = ""
+    moves = False
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.title)
+        self.controller: Controller | None = None
+
+    def attach(self, controller: Controller) -> None:
+        """Another controller (or none) is worked with from now on."""
+        self.controller = controller
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        """The program or the setup has changed."""
+
+    def watches(self) -> tuple[str, ...]:
+        """Keys of the live values it needs while it is visible."""
+        return ()
+
+    def refresh(self, row: Row) -> None:
+        """The newest values; called some thirty times a second while visible, must be cheap when nothing changed."""
+
+    def notice(self, notice: Notice) -> None:
+        """Something happened; called for every notice, visible or not."""
+
+
+def set_text(label: object, text: str) -> None:
+    """Sets a label's text only when it differs, so that nothing is laid out again for nothing."""
+    if label.text() != text:  # type: ignore[attr-defined]
+        label.setText(text)  # type: ignore[attr-defined]

@@ -1,0 +1,107 @@
+"""A lamp: filled or hollow, and the word beside it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
+
+from widgets.parts.look import look
+
+
+class Lamp(QAbstractButton):
+    """One input or output: number, name, filled/hollow lamp and on/off. Clickable only when told so."""
+
+    wanted = Signal(bool)  # the person wants it on (True) or off
+
+    def __init__(self, number: int, name: str = "", parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.number = number
+        self._name = name
+        self._on: bool | None = None
+        self._stale = False
+        self._switchable = False
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.clicked.connect(self._ask)
+        self._tell()
+
+    @property
+    def words(self) -> str:
+        """What the lamp says, in words."""
+        state = "unknown" if self._on is None else "on" if self._on else "off"
+        return f"{self.number} {self._name}".strip() + f", {state}" + (", stale" if self._stale else "")
+
+    def show_name(self, name: str) -> None:
+        """The name given in the setup."""
+        if name != self._name:
+            self._name = name
+            self._tell()
+
+    def show_level(self, on: bool | None, stale: bool = False) -> None:
+        """On, off, or None when it is not known; stale values are greyed."""
+        if (on, stale) != (self._on, self._stale):
+            self._on, self._stale = on, stale
+            self._tell()
+
+    def show_switchable(self, switchable: bool, why_not: str = "") -> None:
+        """Whether a click asks for the other level; otherwise the reason it does not."""
+        self.setToolTip("Click to switch." if switchable else why_not)
+        if switchable != self._switchable:
+            self._switchable = switchable
+            self.setFocusPolicy(Qt.FocusPolicy.StrongFocus if switchable else Qt.FocusPolicy.NoFocus)
+            self.setCursor(Qt.CursorShape.PointingHandCursor if switchable else Qt.CursorShape.ArrowCursor)
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(112, look().control)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(84, look().control)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        rect = QRectF(self.rect()).adjusted(1.5, 1.5, -1.5, -1.5)
+        if self._switchable:
+            painter.setPen(QPen(look().colour("focus" if self.hasFocus() else "border"), 2 if self.hasFocus() else 1))
+            painter.setBrush(look().colour("sunken" if self.isDown() else "raised"))
+            painter.drawRoundedRect(rect, 4, 4)
+        self._paint_lamp(painter, QPointF(rect.left() + 14, rect.center().y()))
+        self._paint_words(painter, rect.adjusted(28, 0, -8, 0))
+
+    def _paint_lamp(self, painter: QPainter, centre: QPointF) -> None:
+        colour = self._colour()
+        painter.setPen(QPen(colour, 1.8))
+        painter.setBrush(colour if self._on else Qt.BrushStyle.NoBrush)
+        if self._on is None:
+            painter.setPen(QPen(colour, 1.8, Qt.PenStyle.DotLine))
+        painter.drawEllipse(centre, 6.5, 6.5)
+
+    def _paint_words(self, painter: QPainter, rect: QRectF) -> None:
+        state = "?" if self._on is None else "on" if self._on else "off"
+        bold = painter.font()
+        bold.setBold(bool(self._on))
+        painter.setFont(bold)
+        painter.setPen(look().colour("stale" if self._stale else "text" if self._on else "quiet"))
+        width = painter.fontMetrics().horizontalAdvance("off ")
+        painter.drawText(rect, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, state)
+        name = f"{self.number}  {self._name}".rstrip()
+        room = rect.adjusted(0, 0, -width - 4, 0)
+        painter.setPen(look().colour("stale" if self._stale else "text"))
+        painter.drawText(
+            room, Qt.AlignmentFlag.AlignVCenter, painter.fontMetrics().elidedText(name, Qt.TextElideMode.ElideRight, int(room.width()))
+        )
+
+    def _colour(self) -> QColor:
+        if self._stale or self._on is None:
+            return look().colour("stale")
+        return look().colour("ok" if self._on else "quiet")
+
+    def _ask(self) -> None:
+        if self._switchable:
+            self.wanted.emit(not self._on)
+
+    def _tell(self) -> None:
+        self.setAccessibleName(self.words)
+        self.update()

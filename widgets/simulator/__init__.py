@@ -1,0 +1,1 @@
+"""The world outside the simulated controller: switches, inputs, voltages, a push."""

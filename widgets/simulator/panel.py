@@ -1,0 +1,184 @@
+"""The hand of the outside world on the simulated machine: switches, inputs, voltages, a push on the load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QSlider, QVBoxLayout, QWidget
+
+from device.api import Kind
+from widgets.panel import Panel
+from widgets.parts.kind import KindBadge
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from codegen.setup import Setup
+    from device.api import Controller
+
+EMPTY = "The simulator is not running. Start it to flip its switches and push its load from here."
+SWITCHES = (("fls", "Forward limit"), ("rls", "Reverse limit"), ("home", "Home"))
+
+
+class SimulatorPanel(Panel):
+    """Everything goes up as `stimulus(signal, value)` with the names of the command line's --stimulus."""
+
+    title = "Simulator"
+    stimulus = Signal(str, float)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._setup: Setup | None = None
+        self._built: tuple[object, ...] = ()
+        self.inputs: dict[int, QCheckBox] = {}
+        self.switches: dict[str, QCheckBox] = {}
+        self.volts: dict[int, QDoubleSpinBox] = {}
+        self.pushes: dict[str, QDoubleSpinBox] = {}
+        self.badge, self.empty = KindBadge(), QLabel(EMPTY)
+        self.empty.setWordWrap(True)
+        self.empty.setProperty("role", "quiet")
+        self._area = QScrollArea()
+        self._area.setWidgetResizable(True)
+        self._area.setFrameShape(QFrame.Shape.NoFrame)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 8, 8, 8)
+        column.addWidget(self.badge)
+        column.addWidget(self.empty)
+        column.addWidget(self._area, 1)
+        column.addStretch(0)
+        self._build()
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self.badge.show_kind(controller.kind)
+        self._built = ()
+        self._build()
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        if old is None or old.setup is not new.setup:
+            self._setup = new.setup
+            self._build()
+
+    def refresh(self, row: object) -> None:
+        self._build()
+
+    def _build(self) -> None:
+        """Controls for the axes and inputs there are; built again only when those change."""
+        controller = self.controller
+        there = controller is not None and controller.kind is Kind.SIMULATOR
+        self.empty.setVisible(not there)
+        self._area.setVisible(there)
+        if not there or controller is None:
+            return
+        model = controller.model
+        inputs, analog = (model.inputs, model.analog_inputs) if model is not None else (8, 7)
+        letters = controller.axes or "X"
+        names = self._setup.input_names if self._setup is not None else ()
+        wanted = (inputs, analog, letters, tuple(names))
+        if wanted == self._built:
+            return
+        self._built = wanted
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.setSpacing(8)
+        self._heading(column, "Inputs (high when ticked; nothing connected is high)")
+        column.addLayout(self._input_grid(inputs, names))
+        self._heading(column, "Switches (ticked: pressed)")
+        column.addLayout(self._switch_grid(letters))
+        self._heading(column, "Analog inputs")
+        column.addLayout(self._analog_grid(analog))
+        self._heading(column, "Push the load")
+        column.addLayout(self._push_grid(letters))
+        column.addLayout(self._system_row())
+        column.addStretch(1)
+        self._area.setWidget(inside)
+
+    def _heading(self, column: QVBoxLayout, text: str) -> None:
+        label = QLabel(text)
+        label.setProperty("role", "heading")
+        column.addWidget(label)
+
+    def _input_grid(self, count: int, names: tuple[str, ...]) -> QGridLayout:
+        grid = QGridLayout()
+        self.inputs = {}
+        for number in range(1, count + 1):
+            name = names[number - 1] if number <= len(names) else ""
+            box = QCheckBox(f"{number}  {name}".rstrip())
+            box.setAccessibleName(f"Input {number} {name}".strip())
+            box.setChecked(True)
+            box.toggled.connect(lambda high, number=number: self.stimulus.emit(f"in{number}", float(high)))
+            rows = (count + 1) // 2
+            grid.addWidget(box, (number - 1) % rows, (number - 1) // rows)
+            self.inputs[number] = box
+        return grid
+
+    def _switch_grid(self, letters: str) -> QGridLayout:
+        grid = QGridLayout()
+        self.switches = {}
+        for column, letter in enumerate(letters):
+            for row, (signal, words) in enumerate(SWITCHES):
+                box = QCheckBox(f"{letter} {words.lower()}")
+                name = f"{signal}_{letter.lower()}"
+                box.toggled.connect(lambda pressed, name=name: self.stimulus.emit(name, 0.0 if pressed else 1.0))
+                grid.addWidget(box, row + 3 * (column // 2), column % 2)
+                self.switches[name] = box
+        return grid
+
+    def _analog_grid(self, count: int) -> QGridLayout:
+        grid = QGridLayout()
+        self.volts = {}
+        for number in range(1, count + 1):
+            label, slider, box = QLabel(str(number)), QSlider(Qt.Orientation.Horizontal), QDoubleSpinBox()
+            box.setRange(-10.0, 10.0)
+            box.setSingleStep(0.1)
+            box.setSuffix(" V")
+            box.setAccessibleName(f"Analog input {number} in volts")
+            slider.setRange(-1000, 1000)
+            slider.setAccessibleName(f"Analog input {number}")
+            slider.valueChanged.connect(lambda value, box=box: box.setValue(value / 100))
+            box.valueChanged.connect(lambda value, slider=slider: _quietly(slider, round(value * 100)))
+            box.valueChanged.connect(lambda value, number=number: self.stimulus.emit(f"an{number}", float(value)))
+            for column, widget in enumerate((label, slider, box)):
+                grid.addWidget(widget, number, column)
+            self.volts[number] = box
+        grid.setColumnStretch(1, 1)
+        return grid
+
+    def _push_grid(self, letters: str) -> QGridLayout:
+        grid = QGridLayout()
+        self.pushes = {}
+        for row, letter in enumerate(letters):
+            box, button = QDoubleSpinBox(), QPushButton(f"Push {letter}")
+            box.setRange(-1_000_000, 1_000_000)
+            box.setDecimals(0)
+            box.setValue(100)
+            box.setSuffix(" counts")
+            box.setAccessibleName(f"Push on {letter} in counts")
+            button.clicked.connect(lambda _=False, letter=letter, box=box: self.stimulus.emit(f"position_{letter.lower()}", box.value()))
+            grid.addWidget(QLabel(letter), row, 0)
+            grid.addWidget(box, row, 1)
+            grid.addWidget(button, row, 2)
+            self.pushes[letter] = box
+        grid.setColumnStretch(1, 1)
+        return grid
+
+    def _system_row(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        abort = QCheckBox("Abort input pressed")
+        abort.toggled.connect(lambda pressed: self.stimulus.emit("abort", 0.0 if pressed else 1.0))
+        self.switches["abort"] = abort
+        reset = QPushButton("Reset")
+        reset.setToolTip("As if the power had been off for a moment: what is not burned is gone.")
+        reset.clicked.connect(lambda: self.stimulus.emit("reset", 0.0))
+        row.addWidget(abort)
+        row.addStretch(1)
+        row.addWidget(reset)
+        return row
+
+
+def _quietly(slider: QSlider, value: int) -> None:
+    """Moves the slider without telling anybody."""
+    slider.blockSignals(True)
+    slider.setValue(value)
+    slider.blockSignals(False)

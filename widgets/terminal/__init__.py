@@ -1,0 +1,1 @@
+"""Typed commands, replies and the prompt of a waiting program."""

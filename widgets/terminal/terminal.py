@@ -1,0 +1,172 @@
+"""A simple terminal: typed commands, their replies, the reason behind a `?`, and what the program says unasked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QTextCharFormat, QTextCursor
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QLineEdit, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
+
+from device.api import Kind, NoticeKind
+from widgets.panel import Panel, set_text
+from widgets.parts.kind import KindBadge
+from widgets.parts.look import look
+
+if TYPE_CHECKING:
+    from device.api import Controller, Notice, Reply, Row, Traffic
+
+MOST_LINES = 5000
+# what a line is: (colour token, sign before it)
+STYLES = {
+    "typed": ("accent", "› "),
+    "reply": ("text", "  "),
+    "refused": ("fault", "? "),
+    "said": ("group_math", "« "),
+    "poll": ("quiet", "· "),
+    "note": ("quiet", "  "),
+}
+
+
+class TerminalPanel(Panel):
+    """Commands go up as `command`; the owner answers with `show_reply`."""
+
+    title = "Terminal"
+    moves = True
+    command = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._typed: list[str] = []
+        self._at = 0
+        self._seen = 0
+        self.badge = KindBadge()
+        self.log, self.line = QPlainTextEdit(), QLineEdit()
+        self.send, self.clear = QPushButton("Send"), QPushButton("Clear")
+        self.traffic = QCheckBox("Show live reads")
+        self.why = QLabel()
+        self._lay_out()
+        self.line.returnPressed.connect(self._send)
+        self.send.clicked.connect(self._send)
+        self.clear.clicked.connect(self.log.clear)
+        self.line.installEventFilter(self)
+        self._allow("Connect a controller or start the simulator first.")
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self.badge.show_kind(controller.kind)
+        self._seen = 0
+        if controller.kind is not Kind.OFFLINE:
+            self.write("note", f"— {controller.state_text} —")
+
+    def refresh(self, row: Row) -> None:
+        controller = self.controller
+        if controller is None:
+            return
+        self._allow(why_not(controller))
+        if self.traffic.isChecked():
+            for entry in controller.traffic(self._seen):
+                self._seen = entry.number
+                self._show_traffic(entry)
+
+    def notice(self, notice: Notice) -> None:
+        if notice.kind is NoticeKind.MESSAGE:
+            self.write("said", notice.text)
+        elif notice.kind is NoticeKind.FAULT:
+            self.write("refused", notice.text)
+
+    def show_reply(self, command: str, reply: Reply) -> None:
+        """What the controller answered to a typed command."""
+        if reply.accepted:
+            for text in reply.text.splitlines() or ["accepted"]:
+                self.write("reply" if reply.text else "note", text)
+        else:
+            reason = f"{command}: {reply.reason or 'refused'}" + (f" (error {reply.code})" if reply.code else "")
+            self.write("refused", reason)
+        if not reply.certain:
+            self.write("note", "(the reply is uncertain: the program was talking at the same moment)")
+
+    def show_failure(self, command: str, sentence: str) -> None:
+        """Why a command got no answer."""
+        self.write("refused", f"{command}: {sentence}")
+
+    def write(self, style: str, text: str) -> None:
+        """Adds a line in the colour and with the sign of its style."""
+        token, sign = STYLES[style]
+        shape = QTextCharFormat()
+        shape.setForeground(look().colour(token))
+        cursor = self.log.textCursor()
+        cursor.movePosition(QTextCursor.MoveOperation.End)
+        if not self.log.document().isEmpty():
+            cursor.insertBlock()
+        cursor.insertText(sign + text.rstrip("\r\n"), shape)
+        if self.log.verticalScrollBar().value() >= self.log.verticalScrollBar().maximum() - 2:
+            self.log.setTextCursor(cursor)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Up and down bring back earlier lines."""
+        if watched is self.line and isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
+            step = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}.get(Qt.Key(event.key()))
+            if step is not None and self._typed:
+                self._at = min(max(0, self._at + step), len(self._typed))
+                self.line.setText(self._typed[self._at] if self._at < len(self._typed) else "")
+                return True
+        return super().eventFilter(watched, event)
+
+    def _send(self) -> None:
+        text = self.line.text().strip()
+        if not text or not self.line.isEnabled():
+            return
+        if not self._typed or self._typed[-1] != text:
+            self._typed.append(text)
+        self._at = len(self._typed)
+        self.line.clear()
+        self.write("typed", text)
+        self.command.emit(text)
+
+    def _allow(self, reason: str) -> None:
+        self.line.setEnabled(not reason)
+        self.send.setEnabled(not reason)
+        self.send.setToolTip(reason or "Sends the line (Enter)")
+        set_text(self.why, reason)
+        self.why.setVisible(bool(reason))
+
+    def _show_traffic(self, entry: Traffic) -> None:
+        if entry.source in ("poll", "stop", "download"):
+            self.write("poll", f"{entry.direction} {entry.text.strip()}")
+
+    def _lay_out(self) -> None:
+        self.log.setReadOnly(True)
+        self.log.setMaximumBlockCount(MOST_LINES)
+        self.log.setAccessibleName("Terminal log")
+        self.log.setFont(look().code_font())
+        self.log.setPlaceholderText("Replies and program messages appear here.")
+        self.line.setFont(look().code_font())
+        self.line.setAccessibleName("Command")
+        self.line.setPlaceholderText("Two-letter command, for example TP or MG _TPX")
+        self.send.setProperty("role", "primary")
+        self.why.setProperty("role", "warning")
+        self.why.setWordWrap(True)
+        head, foot, column = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
+        head.addWidget(self.badge)
+        head.addWidget(self.traffic)
+        head.addStretch(1)
+        head.addWidget(self.clear)
+        foot.addWidget(self.line, 1)
+        foot.addWidget(self.send)
+        column.setContentsMargins(8, 8, 8, 8)
+        column.addLayout(head)
+        column.addWidget(self.log, 1)
+        column.addWidget(self.why)
+        column.addLayout(foot)
+
+
+def why_not(controller: Controller) -> str:
+    """Why nothing can be typed now; empty when it can."""
+    if controller.kind is Kind.OFFLINE:
+        return "Connect a controller or start the simulator first."
+    if controller.pending_prompt is not None:
+        return "The program waits for an answer: the next line would be taken for it. Use the answer box."
+    if not controller.control:
+        return "Watching only: switch to Control to send commands."
+    return ""
