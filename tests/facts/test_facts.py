@@ -13,7 +13,7 @@ from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 
 from codegen.models import model
-from codegen.numbers import ONE, as_integer, scaled
+from codegen.twoletter.fixed import ONE, as_integer, scaled
 from codegen.twoletter import nodes
 from tests.examples.script import Bench, commands_in
 
@@ -150,7 +150,7 @@ class Given:
 @pytest.mark.parametrize("fact", facts("expressions"))
 def test_expressions(fact: Fact) -> None:
     statement = parse_line(f"RESULT={fact['expression']}").statements[0]
-    assert isinstance(statement, nodes.Assignment), where(fact)
+    assert isinstance(statement, nodes.Assign), where(fact)
     values = {name: scaled(text) for name, _, text in (given.partition("=") for given in fact.get("names", []))}
     came = evaluate(statement.value, Given(values))
     wanted = scaled(fact["value"])

@@ -1,0 +1,72 @@
+"""Connects a call of the command line to a controller, and lets go of it again."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator
+from concurrent.futures import Future
+from contextlib import contextmanager
+from typing import TypeVar
+
+from app.cli.failure import Failure
+from app.cli.sources import known_models
+from codegen.models import MODELS
+from device.api import Controller, Kind, State
+from device.tasks import LinkError
+from device.transport import LineSettings
+
+Result = TypeVar("Result")
+CONNECT_S = 20.0
+TICK_S = 0.02
+DEFAULT_BAUD = 9600
+
+
+def line_settings(options: argparse.Namespace) -> LineSettings:
+    """The line as the options describe it."""
+    return LineSettings(baud=options.baud or DEFAULT_BAUD, handshake=options.handshake, address=options.address)
+
+
+def checked_port(text: str) -> str:
+    """A port's name; the model of a simulator must exist."""
+    kind, _, name = text.partition(":")
+    if kind == "simulator" and name and name not in MODELS:
+        raise Failure(f"--port {text}: no controller model {name} (there are {known_models()})")
+    return text
+
+
+@contextmanager
+def connected(options: argparse.Namespace) -> Iterator[Controller]:
+    """A connected controller; in Control where that was asked for or it is a simulator."""
+    controller = Controller.connect(checked_port(options.port), line_settings(options))
+    try:
+        wait_for(controller, options.port)
+        if options.control and not controller.control:
+            controller.take_control()
+        yield controller
+    finally:
+        controller.close()
+
+
+def wait_for(controller: Controller, port: str) -> None:
+    """Waits until the controller has answered; the reason when it does not."""
+    end = time.monotonic() + CONNECT_S
+    last = ""
+    while controller.state is not State.READY:
+        last = next((notice.text for notice in reversed(controller.notices())), last)
+        if controller.state is State.LOST or time.monotonic() > end:
+            raise Failure(f"{port}: {last or 'no answer from a controller'}")
+        time.sleep(TICK_S)
+
+
+def result_of(future: Future[Result]) -> Result:
+    """Waits for an answer; what went wrong becomes one sentence."""
+    try:
+        return future.result()
+    except LinkError as problem:
+        raise Failure(str(problem)) from problem
+
+
+def is_machine(controller: Controller) -> bool:
+    """Whether something real hangs on the line."""
+    return controller.kind is Kind.MACHINE

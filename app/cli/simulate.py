@@ -1,0 +1,52 @@
+"""`twoletter simulate`: a simulated controller in real time, until interrupted."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from app.cli.failure import DONE, Failure
+from app.cli.run import read_plants
+from app.cli.sources import DEFAULT_MODEL
+from codegen.models import model
+from device.simulator.eeprom import Eeprom
+from device.simulator.server import serve
+from device.simulator.simulation import Simulation
+
+LOOPBACK = ("127.0.0.1", "localhost", "::1", "")
+ANY_PORT = "127.0.0.1:0"
+
+
+def tcp_address(text: str | None) -> str:
+    """HOST:PORT on this computer; other hosts are refused, the simulator has no lock on its door."""
+    if text is None:
+        return ANY_PORT
+    host, colon, port = text.rpartition(":")
+    if not colon or not port.isdecimal() or int(port) > 65535:
+        raise Failure(f"--tcp {text}: needs HOST:PORT, for example {ANY_PORT}")
+    if host.strip("[]") not in LOOPBACK:
+        raise Failure(f"--tcp {text}: a simulated controller is served on this computer only, use 127.0.0.1:{port}")
+    return f"127.0.0.1:{port}" if host in ("", "localhost") else text
+
+
+def simulate(options: argparse.Namespace) -> int:
+    """Serves until interrupted."""
+    name = options.controller or DEFAULT_MODEL
+    if options.chain is not None:
+        raise Failure("--chain: daisy chains of simulated controllers are not available yet")
+    if name == "smartmotor":
+        raise Failure("a simulated smartmotor is not available yet")
+    if options.pty and options.tcp:
+        raise Failure("--pty and --tcp exclude each other")
+    if options.baud is not None and options.baud < 1:
+        raise Failure("--baud must be greater than 0")
+    eeprom = Eeprom(Path(options.eeprom)) if options.eeprom else None
+    simulation = Simulation(model(name), plants=read_plants(options.plant), eeprom=eeprom, baud=options.baud)
+    tcp = None if options.pty else tcp_address(options.tcp)
+    try:
+        serve(simulation, pty=options.pty, tcp=tcp)
+    except KeyboardInterrupt:
+        return DONE
+    except OSError as problem:
+        raise Failure(f"can not listen on {tcp or 'a pseudo-terminal'}: {problem.strerror}") from problem
+    return DONE

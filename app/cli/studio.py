@@ -1,0 +1,49 @@
+"""Opens the studio, or says why there is no window."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+from app.cli.failure import UNUSABLE, Failure
+from app.cli.parser import studio_parser
+from app.cli.version import version
+from codegen.models import MODELS
+
+NO_DISPLAY = "no display to open a window on; run the headless demo with: twoletter demo"
+HEADLESS_PLATFORMS = ("offscreen", "minimal", "vnc")
+
+
+def display_is_there() -> bool:
+    """Whether a window could open: always tried on Windows and macOS, a display server elsewhere."""
+    if sys.platform in ("win32", "darwin"):
+        return True
+    if os.environ.get("QT_QPA_PLATFORM", "").split(":")[0] in HEADLESS_PLATFORMS:
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def way_to_connect(simulator: str | None, port: str | None, offline: bool) -> str:
+    """How the studio connects, as `app.studio` takes it."""
+    if simulator is not None:
+        if simulator and simulator not in MODELS:
+            raise Failure(f"no controller model {simulator} (there are {', '.join(MODELS)})")
+        return f"simulator:{simulator}" if simulator else "simulator"
+    if port:
+        return f"port:{port}"
+    return "offline" if offline else "ask"
+
+
+def open_studio(arguments: list[str]) -> int:
+    """`twoletter [FILE] …`"""
+    options = studio_parser(version()).parse_args(arguments)
+    connect = way_to_connect(options.simulator, options.port, options.offline)
+    path = Path(options.file) if options.file else None
+    if path and not path.exists():
+        raise Failure(f"{path}: no such file, and no such call")
+    if not display_is_there():
+        raise Failure(NO_DISPLAY, UNUSABLE)
+    from app.studio import run_studio
+
+    return run_studio(path, connect)

@@ -1,0 +1,68 @@
+"""`twoletter download` and `upload`: programs to and from a controller."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from app.cli.failure import DONE, NO, Failure
+from app.cli.line import TICK_S, connected, is_machine, result_of
+from app.cli.sources import load_any, write_text
+from device.api import Job
+from device.tasks import LinkError
+
+
+def waited(job: Job[Any]) -> Any:
+    """Waits for a job, shows how far it is, and gives it up when the user does."""
+    shown = ""
+    try:
+        while not job.future.done():
+            words = f"{job.phase} {round(job.fraction * 100)} %"
+            if sys.stderr.isatty() and words != shown:
+                print(f"\r{words:<40}", end="", file=sys.stderr, flush=True)
+                shown = words
+            time.sleep(TICK_S)
+    except KeyboardInterrupt:
+        job.cancel()
+        raise
+    finally:
+        if shown:
+            print(file=sys.stderr)
+    return result_of(job.future)
+
+
+def download(options: argparse.Namespace) -> int:
+    """Sends a program and reads it back; 1 when it could not be verified."""
+    from device.download import DownloadFailed
+
+    path = Path(options.file)
+    loaded = load_any(path)
+    if loaded.listing and (errors := [each for each in loaded.listing.problems if each.severity == "error"]):
+        raise Failure(f"{path}: {errors[0].message}")
+    with connected(options) as controller:
+        if is_machine(controller) and not options.control:
+            raise Failure(f"{options.port}: downloading to a machine needs --control")
+        try:
+            done = waited(controller.download(loaded.text))
+        except (DownloadFailed, LinkError) as problem:
+            raise Failure(f"{options.port}: {problem}", NO) from problem
+    print(done.sentence)
+    return DONE if done.verified else NO
+
+
+def upload(options: argparse.Namespace) -> int:
+    """Reads the program of a controller."""
+    if options.output and Path(options.output).exists() and not options.force:
+        raise Failure(f"{options.output} exists already (--force overwrites it)")
+    with connected(options) as controller:
+        text: str = waited(controller.upload())
+    text = text if not text or text.endswith("\n") else text + "\n"
+    if options.output:
+        write_text(Path(options.output), text)
+        print(f"{options.output}: {len(text.splitlines())} lines")
+    else:
+        sys.stdout.write(text)
+    return DONE
