@@ -202,10 +202,9 @@ class Dimension:
 
 @dataclass(frozen=True, slots=True)
 class SegmentSpeed:
-    """`< n` behind LI, VP, CR: the vector speed of this segment; `> n` (end speed, later controllers) has `end` set."""
+    """`< n` behind LI, VP, CR: the vector speed of this segment."""
 
     value: Expression
-    end: bool = False
     span: Span = field(default=NOWHERE, compare=False)
 
 
