@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from codegen.twoletter.commands import COMMANDS, KEYWORDS
 from codegen.twoletter.evaluate import EvaluationError, evaluate
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
+from codegen.twoletter.rows import Row
 
 from codegen.models import model
 from codegen.twoletter.fixed import ONE, as_integer, scaled
@@ -70,36 +72,48 @@ def steps(name: str, model_name: str) -> set[float]:
     return {step for step in (row.step, *(place.step for place in row.fields_for(model(model_name)))) if step}
 
 
+def near_one_of(values: set[object], value: float, tolerance: float) -> bool:
+    """Whether one of the values is that number, nearly."""
+    return any(isinstance(each, int | float) and abs(each - value) <= tolerance for each in values)
+
+
+def moves_on(row: Row) -> bool:
+    """Whether a command is valid while its axis moves, in some mode."""
+    return row.moving or row.moving_mode == "jog"
+
+
+def refused_moving(row: Row) -> bool:
+    """Whether a command is refused while its axis makes a position move."""
+    return not row.moving or row.moving_mode in ("jog", "idle")
+
+
+# What each kind of fact asks of (lowest values, highest values, row, model name) and the manual's value.
+ASKS: dict[str, Callable[[set[float], set[float], Row, str, Any], bool]] = {
+    "low": lambda lows, highs, row, name, value: value in lows,
+    "model_low": lambda lows, highs, row, name, value: value in lows,
+    "high": lambda lows, highs, row, name, value: value in highs,
+    "model_high": lambda lows, highs, row, name, value: value in highs,
+    "stepper_high": lambda lows, highs, row, name, value: value in highs,
+    "whole_high": lambda lows, highs, row, name, value: value in {int(high) for high in highs},
+    "at_least": lambda lows, highs, row, name, value: any(high >= value for high in highs),
+    "at_most_low": lambda lows, highs, row, name, value: any(low <= value for low in lows),
+    "default": lambda lows, highs, row, name, value: value in defaults(row.name, name),
+    "rounded_default": lambda lows, highs, row, name, value: near_one_of(defaults(row.name, name), value, 0.01),
+    "step": lambda lows, highs, row, name, value: near_one_of(set(steps(row.name, name)), value, value * 0.02),
+    "finer_than": lambda lows, highs, row, name, value: all(step <= value * 1.02 for step in steps(row.name, name)),
+    "moving": lambda lows, highs, row, name, value: moves_on(row) if value else refused_moving(row),
+    "program": lambda lows, highs, row, name, value: row.program == value,
+    "port": lambda lows, highs, row, name, value: row.port == value,
+    "trippoint": lambda lows, highs, row, name, value: row.trippoint == value,
+    "queries": lambda lows, highs, row, name, value: (row.reply is not None) == value,
+    "operand": lambda lows, highs, row, name, value: (row.operand is not None) == value,
+}
+
+
 def holds(fact: Fact, model_name: str) -> bool:
     """Whether the table says what the manual says."""
-    name, kind, value = fact["command"], fact["fact"], fact["value"]
-    row = COMMANDS[name]
-    lows, highs = ends(name, model_name, kind == "stepper_high")
-    whole = {int(high) for high in highs}
-    answers = {
-        "low": value in lows,
-        "model_low": value in lows,
-        "high": value in highs,
-        "model_high": value in highs,
-        "stepper_high": value in highs,
-        "whole_high": value in whole,
-        "at_least": any(high >= value for high in highs),
-        "at_most_low": any(low <= value for low in lows),
-        "default": value in defaults(name, model_name),
-        "rounded_default": any(
-            isinstance(each, int | float) and abs(each - value) < 0.01 for each in defaults(name, model_name)
-        ),
-        "step": any(abs(step - value) <= value * 0.02 for step in steps(name, model_name)),
-        "moving": (row.moving or row.moving_mode == "jog")
-        if value
-        else (not row.moving or row.moving_mode in ("jog", "idle")),
-        "program": row.program == value,
-        "port": row.port == value,
-        "trippoint": row.trippoint == value,
-        "queries": (row.reply is not None) == value,
-        "operand": (row.operand is not None) == value,
-    }
-    return answers[kind]
+    lows, highs = ends(fact["command"], model_name, fact["fact"] == "stepper_high")
+    return ASKS[fact["fact"]](lows, highs, COMMANDS[fact["command"]], model_name, fact["value"])
 
 
 @pytest.mark.parametrize("fact", facts("numbers"))
