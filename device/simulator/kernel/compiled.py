@@ -1,0 +1,97 @@
+"""Compiles the sample loop with numba into a cache of its own, or hands out the same source as plain Python."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from device.simulator.kernel.layout import State
+
+Vector = NDArray[numpy.float64]
+Loop = Callable[[Vector, Vector, int], int]
+MODULES = ("layout", "profile", "inputs", "homing", "servo", "plant", "events", "loop")
+PACKAGE = "device.simulator.kernel"
+
+
+class CompilerMissing(Exception):
+    """The compiled loop was asked for and numba is not there."""
+
+
+def source_version() -> str:
+    """Names the cache after the kernel's sources: numba itself does not notice changed constants or callees."""
+    folder = Path(__file__).parent
+    digest = hashlib.sha256()
+    for name in (*MODULES, "compiled"):
+        digest.update((folder / f"{name}.py").read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder() -> Path:
+    """Where the compiled loop is kept."""
+    import platformdirs
+
+    return Path(platformdirs.user_cache_dir("twoletter-studio", appauthor=False)) / f"kernel-{source_version()}"
+
+
+def as_state(array: Vector) -> State:
+    """The array as a sequence of plain floats, over the same memory."""
+    buffer: Any = array
+    view: Any = memoryview(buffer)
+    state: State = view
+    return state
+
+
+def plain_loop() -> Loop:
+    """The loop as plain Python; memoryviews read and write plain floats much faster than arrays do."""
+    loop = importlib.import_module(f"{PACKAGE}.loop")
+
+    def run(state: Vector, trace: Vector, samples: int) -> int:
+        plain_state: State = as_state(state)
+        plain_trace: State = as_state(trace)
+        return int(loop.run(plain_state, plain_trace, samples))
+
+    return run
+
+
+@functools.cache
+def compiled_loop() -> Loop:
+    """The loop compiled, from the cache where it is there; raises CompilerMissing without numba."""
+    try:
+        import numba
+        from numba.extending import register_jitable
+    except ImportError as missing:
+        raise CompilerMissing(f"numba can not be loaded: {missing}") from missing
+    for name in MODULES[1:]:
+        module = importlib.import_module(f"{PACKAGE}.{name}")
+        for value in list(vars(module).values()):
+            if callable(value) and getattr(value, "__module__", "") == module.__name__ and not isinstance(value, type):
+                register_jitable(value)
+    loop = importlib.import_module(f"{PACKAGE}.loop")
+    settings: Any = numba.config
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = str(cache_folder())
+    try:
+        signature = numba.int64(numba.float64[::1], numba.float64[::1], numba.int64)
+        compiled: Loop = numba.njit(signature, nogil=True, cache=True)(loop.run)
+    finally:
+        settings.CACHE_DIR = before
+    return compiled
+
+
+def loop_for(compiled: bool | None) -> tuple[Loop, bool]:
+    """The loop and whether it is compiled; `None` takes the compiled one when it can be had."""
+    if compiled is False:
+        return plain_loop(), False
+    try:
+        return compiled_loop(), True
+    except CompilerMissing:
+        if compiled:
+            raise
+        return plain_loop(), False

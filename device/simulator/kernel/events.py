@@ -1,0 +1,76 @@
+"""The end of a sample: distances, in position, and the watches that wait for something."""
+
+from __future__ import annotations
+
+from device.simulator.kernel.layout import (
+    ACTUAL,
+    DIRECTION,
+    DISTANCE,
+    EQUAL,
+    IN_POSITION,
+    MARK,
+    MARK_DISTANCE,
+    MOVING,
+    NOT_LESS,
+    NOT_MORE,
+    POSITION,
+    REFERENCE,
+    SETTLING,
+    START,
+    STEPPER,
+    STEPS,
+    TRIPS,
+    W_OPERATOR,
+    W_OPERATOR_2,
+    W_SLOT,
+    W_SLOT_2,
+    W_STATE,
+    W_VALUE,
+    W_VALUE_2,
+    WATCH,
+    WATCH_STRIDE,
+    WATCHES,
+    State,
+)
+
+
+def measure(S: State, b: int) -> None:
+    """What trippoints look at: way from the start and from the last mark, and whether the machine has arrived."""
+    position = S[b + POSITION]
+    S[b + DISTANCE] = abs(position - S[b + START])
+    S[b + MARK_DISTANCE] = abs(position - S[b + MARK])
+    if S[b + MOVING] != 0.0:
+        S[b + IN_POSITION] = 0.0
+        return
+    S[b + SETTLING] += 1.0
+    if S[b + IN_POSITION] == 0.0:
+        if S[b + STEPPER] != 0.0:
+            arrived = S[b + STEPS] == S[b + REFERENCE]
+        else:
+            arrived = (S[b + ACTUAL] - S[b + REFERENCE]) * S[b + DIRECTION] >= 0.0
+        if arrived:
+            S[b + IN_POSITION] = 1.0
+
+
+def holds(value: float, operator: float, wanted: float) -> bool:
+    """One condition of a watch."""
+    if operator == NOT_LESS:
+        return value >= wanted
+    if operator == NOT_MORE:
+        return value <= wanted
+    if operator == EQUAL:
+        return value == wanted
+    return False
+
+
+def test_watches(S: State) -> None:
+    """Marks every armed watch one of whose conditions holds."""
+    place = WATCH
+    for _ in range(int(S[WATCHES])):
+        if S[place + W_STATE] == 1.0 and (
+            holds(S[int(S[place + W_SLOT])], S[place + W_OPERATOR], S[place + W_VALUE])
+            or holds(S[int(S[place + W_SLOT_2])], S[place + W_OPERATOR_2], S[place + W_VALUE_2])
+        ):
+            S[place + W_STATE] = 2.0
+            S[TRIPS] += 1.0
+        place += WATCH_STRIDE

@@ -1,0 +1,287 @@
+"""The slots of the one flat float64 vector that holds everything the sample loop knows.
+
+`S[SLOT]` is global, `S[axis_base(i) + SLOT]` belongs to an axis. Suffixes: `_V` counts/s, `_A` counts/s², `_T` seconds.
+Positions are counts, voltages volts, flags 0 or 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import MutableSequence
+from typing import TypeAlias
+
+State: TypeAlias = MutableSequence[float]  # a memoryview of the vector in plain Python, the array itself when compiled
+
+MAXIMUM_AXES = 4
+SAMPLES_PER_SECOND = 1024  # at TM 1000: a speed of SP counts/s is SP/1024 counts a sample
+
+# --- header -----------------------------------------------------------------------------------------------------------
+(
+    AXES,
+    SAMPLE,  # samples run since power-up
+    PERIOD_T,  # true length of a sample: TM / 1 024 000 s
+    EVENTS,  # number of event bits raised and not yet taken, all axes
+    WATCHES,  # entries of the watch table to look at (one past the highest used)
+    TRIPS,  # watches that tripped in the last sample
+    TRACE_CAPACITY,  # rows that still fit; 0: no trace
+    TRACE_ROWS,
+    TRACE_EVERY,
+    TRACE_COUNTDOWN,
+    RANDOM,  # state of the noise generator, 1..2**31-2
+    ABORT_LEVEL,  # abort input; 0 is active
+    ABORT_SEEN,
+    INPUTS,  # byte as TI has it
+    OUTPUTS,  # byte as OP has it (for the trace only)
+    INPUT_1,  # eight levels, for watches
+) = range(16)
+ANALOG_1 = 24  # eight voltages
+(
+    CONTOUR_LEFT,  # samples left of the running record
+    CONTOUR_BUFFERED,  # 1: a record waits (WC trips at 0)
+    CONTOUR_LENGTH,  # samples of the waiting record; 0 ends the mode
+    CONTOUR_ACTIVE,
+    CAM_ON,
+    CAM_MASTER,  # absolute slot of the master's position
+    CAM_CYCLE,
+    CAM_INTERVAL,
+    CAM_START,
+    CAM_POSITION,  # master position within its cycle
+    CAM_LAST,
+    CAM_AXIS,  # axis whose own position is kept within the cycle, -1: an auxiliary encoder
+) = range(32, 44)
+(
+    PATH_ACTIVE,  # 1: the sequence runs
+    PATH_HEAD,  # index of the segment being run, counted since LM/VM
+    PATH_TAIL,  # segments given since LM/VM
+    PATH_ENDED,  # 1: LE/VE given
+    PATH_SPEED_V,  # VS
+    PATH_AC_A,
+    PATH_DC_A,
+    PATH_RATIO,  # VR
+    PATH_SMOOTHING,  # VT
+    PATH_V,
+    PATH_TRAVELLED,  # counts since BGS
+    PATH_SMOOTHED,  # the same behind the VT filter
+    PATH_MARK,  # where the last AV tripped
+    PATH_REMAINING,  # counts from here to the end of the last segment given
+    PATH_STOPPING,
+    PATH_STOP_CODE,
+    PATH_AT_SPEED,
+    PATH_FROM,  # travelled at the start of the segment PATH_HEAD (unsmoothed)
+    PATH_OUT_HEAD,  # segment the smoothed point is on
+    PATH_OUT_FROM,
+    PATH_FILTER_START,
+    PATH_MOVING,
+    PATH_TOTAL,  # counts of all segments given
+    PATH_SEGMENT_SPEED_V,  # speed asked by the running segment's `< n`, -1: none
+) = range(48, 72)
+
+# --- watches: armed (0 free, 1 armed, 2 tripped), then two conditions (slot, operator, value), either trips ---
+WATCH = 80
+WATCH_STRIDE = 8
+MAXIMUM_WATCHES = 64
+W_STATE, W_SLOT, W_OPERATOR, W_VALUE, W_SLOT_2, W_OPERATOR_2, W_VALUE_2 = range(7)
+NOT_LESS, NOT_MORE, EQUAL, NEVER = range(4)
+
+# --- one axis ---------------------------------------------------------------------------------------------------------
+AXIS = WATCH + WATCH_STRIDE * MAXIMUM_WATCHES
+(
+    # registers, written by the host
+    SPEED_V,
+    AC_A,
+    DC_A,
+    AC_STEP,  # AC/1024: counts/s a sample
+    DC_STEP,
+    DC_HALF_INVERSE,  # 1 / (2 DC_STEP)
+    JOG_V,
+    SMOOTHING,
+    STEP_SMOOTHING,  # KS
+    STEP_FILTER,  # fraction of the way a step pulse output goes each sample
+    KP,
+    KI,
+    KD,
+    INTEGRATOR_LIMIT,
+    TORQUE_LIMIT,
+    OFFSET,
+    VELOCITY_FEED,
+    ACCELERATION_FEED,
+    ERROR_LIMIT,
+    OFF_ON_ERROR,
+    FORWARD_SOFT,
+    REVERSE_SOFT,
+    MOTOR_TYPE,
+    OUTPUT_SIGN,  # -1: MT -1
+    STEPPER,  # 1: MT 2, 2.5 and their negatives
+    ENCODER,  # CE
+    ENCODER_SIGN,
+    AUXILIARY_SIGN,
+    DUAL_LOOP,
+    ANALOG_FEEDBACK,
+    LIMIT_ACTIVE_LEVEL,  # 0 with CN -1, 1 with CN +1
+    GEAR_RATIO,
+    GEAR_MASTER,  # absolute slot whose change is followed, -1: none
+    GEAR_LAST,
+    # profile
+    MODE,
+    MOVING,  # 1 until the profile is complete
+    POSITION,  # commanded, before smoothing
+    VELOCITY_V,  # commanded, before smoothing
+    SMOOTHED,  # commanded, behind the IT filter
+    REFERENCE,  # RP: SMOOTHED to the nearest count
+    SMOOTHED_LAST,
+    COMMANDED_V,  # change of SMOOTHED in this sample, counts/s
+    COMMANDED_LAST_V,
+    SLEW_V,  # signed speed of a homing stage
+    TARGET,
+    DIRECTION,
+    POSITION_SHIFT,  # sum of all renamings
+    TRAVEL,  # POSITION without renamings, for axes that follow it
+    START,  # where the move began
+    MARK,  # where the last AR or AD tripped
+    DISTANCE,  # |POSITION - START|
+    MARK_DISTANCE,  # |POSITION - MARK|
+    AT_SPEED,
+    STOP_CODE,
+    STAGE,  # of FE, FI and HM
+    STAGE_LEVEL,  # home input when the stage began
+    LIMIT_NOW,  # 1: driven into an active forward limit, 2: reverse
+    IN_POSITION,  # profile done and the encoder has reached or passed its end
+    SETTLING,  # samples since the profile was done
+    # servo
+    MOTOR_ON,
+    COUNTS,  # main encoder since power-up, sign of CE applied; DP does not change it
+    COUNTS_BEFORE,  # COUNTS 256 samples ago
+    COUNTS_SHIFT,  # ACTUAL = COUNTS + COUNTS_SHIFT
+    ACTUAL,  # TP
+    ERROR,  # TE
+    LAST_ERROR,  # of the derivative's encoder
+    INTEGRAL,  # volts
+    COMMAND,  # volts, TT
+    ERROR_HIGH,  # 1: |TE| > ER
+    STEPS,  # TD of a stepper (behind the KS filter)
+    STEPS_SMOOTH,
+    STEPS_SHIFT,
+    AUXILIARY,  # TD of a servo
+    AUXILIARY_COUNTS,
+    AUXILIARY_SHIFT,
+    LATCH_ARMED,
+    LATCHED,
+    EVENT,  # bits, see below
+    # switches
+    FORWARD_LEVEL,
+    REVERSE_LEVEL,
+    HOME_LEVEL,
+    FORWARD_FORCED,  # level from outside; the input reads 0 where either is 0
+    REVERSE_FORCED,
+    HOME_FORCED,
+    # plant, constants
+    DRIVE,
+    GAIN_A,  # acceleration of the motor for one volt, counts/s²
+    DECAY,  # simple plant, powered: velocity left after a sample
+    GAIN_V,  # velocity after a sample for one count/s², and travel for one count/s
+    GAIN_X,  # travel in a sample for one count/s²
+    COAST_DECAY,  # the same with the amplifier off
+    COAST_V,
+    COAST_X,
+    FRICTION_A,  # Coulomb friction as acceleration
+    GRAVITY,  # volts
+    BACK_V,  # volts taken off the command per count/s by tachometer or back EMF
+    PEAK_VOLTS,  # peak current as volts of command in the current loop
+    PEAK_CURRENT,
+    RIPPLE,
+    RIPPLE_SCALE,  # sine table entries a count
+    NOISE,
+    DELAY,
+    DELAY_INDEX,
+    GENERAL,  # 1: matrices (electrical time constant or two masses)
+    SUBSTEPS,
+    HALF_BACKLASH,
+    COUPLING_A,  # motor acceleration for one count of twist
+    LOAD_GAIN_A,  # acceleration of the load for one volt of gravity or disturbance
+    CURRENT_A,  # acceleration of the motor for one ampere
+    COUPLING_DAMPING_A,  # motor acceleration for one count/s of twist speed
+    MAIN_ON_LOAD,
+    AUXILIARY_SOURCE,  # 0 motor, 1 load, 2 outside
+    AUXILIARY_RATIO,
+    HOME_FROM,
+    HOME_TO,
+    FORWARD_SWITCH,
+    REVERSE_SWITCH,
+    INDEX_AT,
+    REVOLUTION,  # 4N
+    # plant, state
+    MOTOR_X,
+    MOTOR_V,
+    CURRENT,
+    LOAD_X,
+    LOAD_V,
+    OUTSIDE_X,  # external auxiliary encoder
+    OUTSIDE_V,
+    DISTURBANCE,  # volts, positive pushes forward
+    RAW,  # main encoder since power-up, sign of the machine
+    RAW_LAST,
+    # contour, cam, path
+    CONTOUR_STEP,
+    CONTOUR_NEXT,
+    IN_CONTOUR,
+    CAM_ENGAGED,  # 0 off, 1 waits to engage, 2 follows, 3 follows and waits to disengage
+    CAM_AT,
+    CAM_NET,
+    CAM_VALUE,
+    PATH_MEMBER,
+    PATH_LAST,  # coordinate put out at the last sample
+    PATH_END,  # coordinate at the end of the last segment given
+    PATH_POINT,  # coordinate at the end of the last finished segment
+) = range(139)
+DELAY_RING = 140
+MAXIMUM_DELAY = 32
+HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV
+HISTORY_LENGTH = 256
+MATRICES = HISTORY + HISTORY_LENGTH  # regimes of the general plant
+MATRIX_ROWS = 5  # motor v, current, load v, motor travel, load travel
+MATRIX_COLUMNS = 7  # motor v, current, load v, twist, volts, motor acceleration, load acceleration
+MATRIX_LENGTH = MATRIX_ROWS * MATRIX_COLUMNS
+REGIME_APART, REGIME_STUCK, REGIME_OFF = (
+    1,
+    2,
+    4,
+)  # bits: parts apart, motor held by friction, no power
+REGIMES = 8
+STRIDE = MATRICES + MATRIX_LENGTH * REGIMES
+
+# --- tables behind the axes -------------------------------------------------------------------------------------------
+SINE = AXIS + STRIDE * MAXIMUM_AXES
+SINE_LENGTH = 1024  # one period; one entry more closes it
+CAM = SINE + SINE_LENGTH + 1  # 257 entries of four axes
+CAM_LENGTH = 257
+SEGMENTS = CAM + CAM_LENGTH * MAXIMUM_AXES
+SEGMENT_STRIDE = 16
+MAXIMUM_SEGMENTS = 512  # 511 wait while one runs
+SIZE = SEGMENTS + SEGMENT_STRIDE * MAXIMUM_SEGMENTS
+
+# --- values -----------------------------------------------------------------------------------------------------------
+MODE_IDLE, MODE_POSITION, MODE_JOG, MODE_STOPPING, MODE_SETTLING, MODE_CONTOUR, MODE_PATH = range(7)
+(
+    STAGE_NONE,
+    STAGE_EDGE,  # FE: slews until the home input changes
+    STAGE_INDEX,  # FI: slews until the index pulse
+    STAGE_HOME_SEARCH,
+    STAGE_HOME_STOP,
+    STAGE_HOME_BACK,
+    STAGE_HOME_INDEX,
+) = range(7)
+EVENT_FORWARD_LIMIT, EVENT_REVERSE_LIMIT, EVENT_ERROR, EVENT_OFF, EVENT_HOMED, EVENT_ABORT = 1, 2, 4, 8, 16, 32
+DRIVE_CURRENT, DRIVE_VOLTAGE, DRIVE_VELOCITY, DRIVE_STEPPER = range(4)
+TRACE_COLUMNS_PER_AXIS = 4  # commanded, actual, velocity, torque
+TRACE_EXTRA = 3  # sample first; inputs and outputs last
+WRAP = 4294967296.0
+HALF_WRAP = 2147483648.0
+
+
+def axis_base(axis: int) -> int:
+    """The slot where an axis begins."""
+    return AXIS + STRIDE * axis
+
+
+def trace_columns(axes: int) -> int:
+    """Floats in one trace row: sample, four an axis, inputs, outputs."""
+    return TRACE_EXTRA + TRACE_COLUMNS_PER_AXIS * axes
