@@ -1,0 +1,1 @@
+"""The simulated motion controllers: bytes in, bytes out, on simulated time."""

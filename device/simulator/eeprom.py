@@ -1,0 +1,72 @@
+"""What survives a reset: burned parameters, program and variables, in one file."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Final
+
+PARTS: Final = ("parameters", "program", "variables", "arrays")
+
+
+class EepromUnreadable(Exception):
+    """The EEPROM file is damaged or of something else."""
+
+
+class Eeprom:
+    """Four independent parts, each a JSON value; with a path every burn is written at once and whole."""
+
+    def __init__(self, path: Path | None = None) -> None:
+        self.path = path
+        self._parts: dict[str, Any] = {}
+        if path is not None and path.exists():
+            self._parts = _read(path)
+
+    def part(self, name: str) -> Any:
+        """A burned part, or None."""
+        return self._parts.get(name)
+
+    def burn(self, **parts: Any) -> None:
+        """Stores parts; a value None erases one."""
+        for name, value in parts.items():
+            if name not in PARTS:
+                raise KeyError(name)
+            if value is None:
+                self._parts.pop(name, None)
+            else:
+                self._parts[name] = json.loads(json.dumps(value))
+        self._write()
+
+    def erase(self) -> None:
+        """Master reset: factory state."""
+        self._parts = {}
+        self._write()
+
+    def copy_parts(self) -> dict[str, Any]:
+        """A copy for a snapshot."""
+        return dict(json.loads(json.dumps(self._parts)))
+
+    def restore_parts(self, parts: dict[str, Any]) -> None:
+        """Puts a snapshot's copy back; the file is written at the next burn."""
+        self._parts = dict(json.loads(json.dumps(parts)))
+
+    def _write(self) -> None:
+        if self.path is None:
+            return
+        beside = self.path.with_name(self.path.name + ".new")
+        with beside.open("w", encoding="utf-8") as file:
+            json.dump({"eeprom": 1, **self._parts}, file, indent=1)
+            file.flush()
+            os.fsync(file.fileno())
+        beside.replace(self.path)
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as reason:
+        raise EepromUnreadable(f"{path.name}: not an EEPROM file ({reason})") from reason
+    if not isinstance(content, dict) or content.get("eeprom") != 1:
+        raise EepromUnreadable(f"{path.name}: not an EEPROM file")
+    return {name: content[name] for name in PARTS if name in content}

@@ -1,0 +1,54 @@
+"""What the commands do, one group of commands a module: DOES act, READS compute, WAITS hold, COMPILES shape the flow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from codegen.twoletter.nodes import Command
+from device.simulator.twoletter.behaviour import (
+    configuration,
+    flow,
+    io,
+    messages,
+    motion,
+    programs,
+    status,
+    system,
+    trippoints,
+)
+from device.simulator.twoletter.state import Port, Thread
+
+if TYPE_CHECKING:
+    from device.simulator.twoletter.calls import Call
+    from device.simulator.twoletter.compile import Code
+    from device.simulator.twoletter.unit import Unit
+
+Strand: TypeAlias = Thread | Port
+Op: TypeAlias = Callable[[Strand], int]
+
+DOES: Final[dict[str, Callable[[Unit, Strand, Call], None]]] = {
+    **motion.DOES,
+    **flow.DOES,
+    **io.DOES,
+    **status.DOES,
+    **configuration.DOES,
+    **system.DOES,
+    **programs.DOES,
+}
+READS: Final[dict[str, Callable[[Unit, int], int]]] = {
+    **motion.READS,
+    **flow.READS,
+    **io.READS,
+    **status.READS,
+    **configuration.READS,
+}
+ASKED: Final[dict[str, Callable[[Unit, int], int]]] = {}
+WAITS: Final = trippoints.WAITS
+COMPILES: Final[dict[str, Callable[[Command, int, Unit, Code | None], Op]]] = {
+    **flow.COMPILES,
+    **configuration.COMPILES,
+    **messages.COMPILES,
+    **programs.COMPILES,
+}
+KEYWORDS: Final[dict[str, Callable[[Unit], int]]] = {}

@@ -1,0 +1,164 @@
+"""Compiles program lines once into small callables: each does one command and answers where to go on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
+
+from codegen.twoletter.evaluate import compile_expression
+from codegen.twoletter.nodes import (
+    Assign,
+    Broken,
+    Command,
+    Comment,
+    Element,
+    Foreign,
+    Label,
+    Nothing,
+    Print,
+    Statement,
+    String,
+    Variable,
+)
+from codegen.twoletter.parse import parse_line
+from device.simulator.twoletter import memory
+from device.simulator.twoletter.calls import command_op
+from device.simulator.twoletter.state import CommandError, Port, Thread
+
+if TYPE_CHECKING:
+    from device.simulator.twoletter.unit import Unit
+
+Strand: TypeAlias = Thread | Port
+Op: TypeAlias = Callable[[Strand], int]
+
+__all__ = ["Code", "Op", "compile_line", "compile_program"]
+
+
+@dataclass(slots=True)
+class Code:
+    """A compiled program: one op a command, in a row."""
+
+    lines: tuple[str, ...] = ()
+    ops: list[Op] = field(default_factory=list)
+    line_of: list[int] = field(default_factory=list)
+    start_of: list[int] = field(default_factory=list)  # line → its first op
+    labels: dict[str, int] = field(default_factory=dict)  # name → op
+
+    def line(self, pc: int) -> int:
+        """The line of an op; the one behind the last for the end."""
+        return self.line_of[pc] if pc < len(self.line_of) else len(self.lines)
+
+
+def compile_program(lines: tuple[str, ...], unit: Unit) -> Code:
+    """The whole program; labels are resolved by name when a jump is compiled, so they are found first."""
+    code = Code(lines=lines)
+    statements = [parse_line(text).statements for text in lines]
+    pc = 0
+    for number, line in enumerate(statements):
+        code.start_of.append(pc)
+        for statement in line:
+            if isinstance(statement, Label):
+                code.labels.setdefault(statement.name, pc)
+            elif takes_time(statement):
+                code.line_of.append(number)
+                pc += 1
+    for line in statements:
+        for statement in line:
+            if takes_time(statement):
+                code.ops.append(compile_statement(statement, len(code.ops) + 1, unit, code, from_port=False))
+    code.ops.append(_off_the_end(unit))
+    return code
+
+
+def compile_line(text: str, unit: Unit) -> list[Op]:
+    """A line from a port; each op is one prompt."""
+    found = [statement for statement in parse_line(text).statements if not isinstance(statement, Nothing)]
+    found = found or [Nothing()]
+    return [
+        compile_statement(statement, index + 1, unit, None, from_port=True) for index, statement in enumerate(found)
+    ]
+
+
+def takes_time(statement: Statement) -> bool:
+    """Labels, empty statements and the host's comments cost no command time."""
+    if isinstance(statement, Comment):
+        return statement.mark == "NO"
+    return not isinstance(statement, Label | Nothing)
+
+
+def compile_statement(statement: Statement, following: int, unit: Unit, code: Code | None, *, from_port: bool) -> Op:
+    """One statement as an op that answers `following` or where it jumps to."""
+    if isinstance(statement, Broken | Foreign):
+        return _refuse(statement.code)
+    if isinstance(statement, Command):
+        return command_op(statement, following, unit, code, from_port=from_port)
+    if isinstance(statement, Assign):
+        return _assign(statement, following, unit)
+    if isinstance(statement, Print):
+        return _print(statement, following, unit)
+    if isinstance(statement, Label) and from_port:
+        return _refuse(1)
+    return lambda strand: following
+
+
+def _refuse(code: int) -> Op:
+    def op(strand: Strand) -> int:
+        raise CommandError(code)
+
+    return op
+
+
+def _off_the_end(unit: Unit) -> Op:
+    def op(strand: Strand) -> int:
+        raise CommandError(unit.profile.off_the_end_code)
+
+    return op
+
+
+def _assign(statement: Assign, following: int, unit: Unit) -> Op:
+    is_text = isinstance(statement.value, String)
+    if isinstance(statement.target, Element):
+        return _assign_element(statement, statement.target, following, unit)
+    name, names, model = statement.target.name, unit.names, unit.model
+    value = compile_expression(statement.value)
+
+    def op(strand: Strand) -> int:
+        state = unit.state
+        result = value(names)
+        if name in state.variables:
+            state.variables[name] = result
+        else:
+            memory.set_variable(state, model, name, result)
+        if is_text:
+            state.strings.add(name)
+        elif state.strings:
+            state.strings.discard(name)
+        return following
+
+    return op
+
+
+def _assign_element(statement: Assign, target: Element, following: int, unit: Unit) -> Op:
+    if target.index is None:
+        return _refuse(memory.BAD_INDEX)
+    name, names = target.name, unit.names
+    index, value = compile_expression(target.index), compile_expression(statement.value)
+
+    def op(strand: Strand) -> int:
+        memory.set_element(unit.state, name, index(names) >> 16, value(names))
+        return following
+
+    return op
+
+
+def _print(statement: Print, following: int, unit: Unit) -> Op:
+    if not isinstance(statement.target, Variable | Element):
+        return _refuse(1)
+    value, names, form = compile_expression(statement.target), unit.names, statement.format
+
+    def op(strand: Strand) -> int:
+        unit.answer(strand, unit.formatted(value(names), form))
+        return following
+
+    return op

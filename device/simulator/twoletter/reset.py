@@ -1,0 +1,84 @@
+"""Power-up and reset: what is cleared, what the EEPROM brings back, and #AUTO."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from codegen.twoletter.fixed import ONE
+from device.simulator.twoletter import burned
+from device.simulator.twoletter.behaviour import registers
+from device.simulator.twoletter.state import fresh
+
+if TYPE_CHECKING:
+    from device.simulator.twoletter.unit import Unit
+
+
+def power_up(unit: Unit) -> None:
+    """Factory values, then what was burned; #AUTO starts when a burned program has it (dmc-1412-1414.txt l.2967)."""
+    _load(unit)
+    if "AUTO" in unit.code.labels and unit.eeprom.part("program") is not None:
+        unit.start(0, unit.code.labels["AUTO"])
+
+
+def begin(unit: Unit) -> None:
+    """Motion and programs end at once, outputs and ports are cleared."""
+    unit.halt_all()
+    for strand in (*unit.state.threads, *unit.state.ports):
+        unit.drop(strand.wait)
+        strand.wait = None
+    for port in unit.state.ports:
+        port.pending, port.mode, port.download = None, "command", None
+        port.text.clear()
+    for uart in unit.uarts:
+        uart.clear()
+    motion = unit.motion
+    motion.abort_all()
+    for axis in unit.axes():
+        motion.motor_off(axis)
+    unit.state.outputs = 0
+    motion.set_outputs(0)
+    unit.state.command_at = -1
+    unit.state.reset_at = unit.after_ms(unit.profile.reset_ms)
+    unit.changed = True
+
+
+def finish(unit: Unit) -> None:
+    """The controller is back: prompt, then #AUTO."""
+    unit.state.reset_at = -1
+    _load(unit)
+    unit.reply(1, b":")
+    if "AUTO" in unit.code.labels and unit.eeprom.part("program") is not None:
+        unit.start(0, unit.code.labels["AUTO"])
+
+
+def _load(unit: Unit) -> None:
+    """Everything as after power-up; inputs and the machine stay as they are."""
+    before = unit.state
+    state = unit.state = fresh(unit.model)
+    state.inputs, state.analog, state.abort_input = before.inputs, before.analog, before.abort_input
+    state.clock_offset = unit.sample
+    registers.load_defaults(state, unit.model)
+    state.settings["LZ"] = unit.profile.leading_zeros_removed * ONE
+    state.settings["EO"] = unit.profile.echo * ONE
+    motors_on = [True] * len(unit.model.axes)
+    parameters = unit.eeprom.part("parameters")
+    if parameters is not None:
+        motors_on = burned.load_parameters(unit, parameters)
+    burned.load_variables(unit)
+    unit.set_program(tuple(unit.eeprom.part("program") or ()))
+    _start_motion(unit, motors_on)
+    unit.open_port_two()
+
+
+def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
+    state, motion = unit.state, unit.motion
+    unit.set_sample_time(state.settings["TM"] // ONE)
+    registers.put_all(unit)
+    motion.set_limit_polarity(state.switches[0] == 1)
+    motion.set_outputs(state.outputs)
+    for axis, on in enumerate(motors_on):
+        motion.define_position(axis, 0)
+        if on:
+            motion.servo_here(axis)
+        else:
+            motion.motor_off(axis)

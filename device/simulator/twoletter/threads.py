@@ -1,0 +1,313 @@
+"""The interpreter: which thread or port is served when, what they wait for, and the automatic routines."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from codegen.twoletter.evaluate import EvaluationError
+from device.simulator.times import COMMAND
+from device.simulator.twoletter import wire
+from device.simulator.twoletter.state import FOREVER, CommandError, Port, Thread, Wait
+from device.simulator.twoletter.unit import Unit
+
+Strand: TypeAlias = Thread | Port
+MC_TIMEOUT = 99  # stop code
+
+
+class Interpreter:
+    """One command at a time, COMMAND ticks each, in turn among threads 0.. and port 1.
+
+    Between commands nothing happens but samples, characters and waits that end; each at its own tick, so that the
+    result does not depend on how `advance` is sliced. At an equal tick a sample precedes a command.
+    """
+
+    def __init__(self, unit: Unit) -> None:
+        self.unit = unit
+
+    # -------------------------------------------------------------------- time
+
+    def advance(self, end: int, *, until_idle: bool = False) -> None:
+        """Carries out everything due up to and including tick `end`."""
+        unit = self.unit
+        clock = unit.clock
+        while True:
+            self._settle()
+            if until_idle and not unit.running():
+                return
+            due = self._next_event()
+            command_at = unit.state.command_at
+            target = min(due, end if command_at < 0 else min(command_at, end))
+            if self._watching():
+                if self._sync(target):
+                    continue
+            else:
+                clock.now = target
+            if clock.now == command_at:
+                self._commands(min(due, end))
+            elif clock.now >= end and due > end:
+                return
+
+    def _sync(self, target: int) -> bool:
+        """Runs the motion towards `target`, up to the first sample that ends a wait or calls a routine; True then."""
+        clock = self.unit.clock
+        if clock.tick + clock.period <= clock.now:
+            clock.catch_up(clock.now)
+        if target < clock.tick + clock.period:
+            clock.now = target
+            return False
+        early = clock.sync(target)
+        clock.now = max(clock.now, clock.tick)
+        if self._after_sample() or early:
+            return True
+        clock.now = target
+        return False
+
+    def _next_event(self) -> int:
+        """The next tick at which something other than a command is due."""
+        unit = self.unit
+        state = unit.state
+        due = state.reset_at if state.reset_at >= 0 else FOREVER
+        for uart in unit.uarts:
+            due = min(due, uart.due_in())
+        for strand in (*state.threads, *state.ports):
+            wait = strand.wait
+            if wait is not None:
+                due = min(due, wait.wake)
+                if wait.kind == "output":
+                    due = min(due, unit.uarts[wait.number - 1].due_out())
+        return max(due, unit.clock.now)
+
+    def _settle(self) -> None:
+        """Brings ports and waits up to now, and gives the interpreter its next command."""
+        unit = self.unit
+        state, now = unit.state, unit.clock.now
+        if 0 <= state.reset_at <= now:
+            unit.finish_reset()
+        for uart, port in zip(unit.uarts, state.ports, strict=True):
+            uart.run(now)
+            if uart.buffer or uart.overruns:
+                wire.take_characters(unit, port)
+        for strand in (*state.threads, *state.ports):
+            wait = strand.wait
+            if wait is not None and (wait.wake <= now or (wait.kind == "output" and self._has_room(wait))):
+                self.release(strand)
+        if state.command_at < 0 and self._ready():
+            state.command_at = max(now, state.busy_until) + COMMAND
+
+    def _has_room(self, wait: Wait) -> bool:
+        return self.unit.uarts[wait.number - 1].room() >= 0
+
+    def _ready(self) -> list[Strand]:
+        state = self.unit.state
+        if state.reset_at >= 0:
+            return []
+        ready: list[Strand] = [thread for thread in state.threads if thread.running and thread.wait is None]
+        ready += [port for port in state.ports if port.pending is not None and port.wait is None]
+        return ready
+
+    # ---------------------------------------------------------------- commands
+
+    def _commands(self, limit: int) -> None:
+        """Carries out the command that is due now, and those behind it as long as nothing else happens."""
+        unit = self.unit
+        state = unit.state
+        ready = self._ready()
+        if not ready:
+            state.command_at = -1
+            return
+        unit.changed = False
+        plain = not any(isinstance(strand, Port) for strand in ready) and not self._traces()
+        if plain and not self._watching():
+            self._burst(ready, limit)
+        else:
+            self._one(self._in_turn(ready))
+        if self._ready():
+            state.command_at = max(state.command_at, state.busy_until + COMMAND)
+        else:
+            state.command_at = -1
+
+    def _traces(self) -> bool:
+        return self.unit.state.settings["TR"] != 0 or self.unit.records.on_trace is not None
+
+    def _place(self, strand: Strand) -> int:
+        return len(self.unit.state.threads) + strand.number if isinstance(strand, Port) else strand.number
+
+    def _in_turn(self, ready: list[Strand]) -> Strand:
+        """The first ready one behind the one served last."""
+        turn = self.unit.state.turn
+        return min(ready, key=lambda strand: (self._place(strand) <= turn, self._place(strand)))
+
+    def _burst(self, ready: list[Strand], limit: int) -> None:
+        """Serves threads round and round, one command each, until one of them changes what is ready."""
+        unit = self.unit
+        state, clock, ops = unit.state, unit.clock, unit.code.ops
+        at, count = state.command_at, len(ready)
+        index = ready.index(self._in_turn(ready))
+        threads = [strand for strand in ready if isinstance(strand, Thread)]
+        thread = threads[index]
+        try:
+            if count == 1:
+                while at <= limit and not unit.changed:
+                    clock.now = at
+                    thread.pc = ops[thread.pc](thread)
+                    at += COMMAND
+            else:
+                while at <= limit and not unit.changed:
+                    thread = threads[index]
+                    clock.now = at
+                    thread.pc = ops[thread.pc](thread)
+                    at += COMMAND
+                    index = index + 1 if index + 1 < count else 0
+        except (CommandError, EvaluationError) as refusal:
+            unit.fail(thread, refusal.code, thread.pc)
+            at += COMMAND
+        state.command_at, state.turn = at, thread.number
+        self._stall(thread)
+
+    def _stall(self, strand: Strand) -> None:
+        """The output FIFO is over-full: whoever sent last waits for room (dmc-1412-1414.txt l.1335)."""
+        port, self.unit.stalled = self.unit.stalled, 0
+        if port and strand.wait is None:
+            strand.wait = Wait("output", number=port)
+
+    def _one(self, strand: Strand) -> None:
+        state = self.unit.state
+        state.command_at += COMMAND
+        state.turn = self._place(strand)
+        if isinstance(strand, Port):
+            self._port_command(strand)
+        elif self._traced(strand):
+            self._thread_command(strand)
+
+    def _thread_command(self, thread: Thread) -> None:
+        unit, pc = self.unit, thread.pc
+        try:
+            thread.pc = unit.code.ops[pc](thread)
+        except (CommandError, EvaluationError) as refusal:
+            unit.fail(thread, refusal.code, pc)
+        thread.traced = False
+        self._stall(thread)
+
+    def _traced(self, thread: Thread) -> bool:
+        """Shows a line about to begin (dmc-1412-1414.txt l.2672); False while there is no room for it."""
+        unit = self.unit
+        line = unit.code.line(thread.pc)
+        first = line < len(unit.code.start_of) and unit.code.start_of[line] == thread.pc
+        if thread.traced or (line == thread.line and not first):
+            return True
+        thread.line, thread.traced = line, True
+        if unit.records.on_trace is not None:
+            unit.records.on_trace(unit.clock.now, thread.number, line)
+        if unit.state.settings["TR"] and line < len(unit.code.lines):
+            unit.unsolicited(1, f"{line:03d} {unit.code.lines[line]}\r\n")
+            self._stall(thread)
+        return thread.wait is None
+
+    def _port_command(self, port: Port) -> None:
+        unit = self.unit
+        assert port.pending is not None
+        ops = unit.line_ops(port.pending)
+        try:
+            ops[port.position](port)
+        except (CommandError, EvaluationError) as refusal:
+            unit.state.error_code = refusal.code
+            unit.reply(port.number, wire.REFUSED)
+            self._end_line(port)
+        else:
+            self._stall(port)
+            if port.wait is None:
+                self._prompt(port)
+
+    def _prompt(self, port: Port) -> None:
+        """A command from a port is done: its prompt, and the next of the line."""
+        if port.mode != "command" or port.pending is None:
+            self._end_line(port)
+            return
+        self.unit.reply(port.number, wire.ACCEPTED)
+        self.unit.stalled = 0
+        port.position += 1
+        if port.position >= len(self.unit.line_ops(port.pending)):
+            self._end_line(port)
+
+    def _end_line(self, port: Port) -> None:
+        port.pending, port.position = None, 0
+        wire.take_characters(self.unit, port)
+        self.unit.changed = True
+
+    # ------------------------------------------------------------------- waits
+
+    def release(self, strand: Strand) -> None:
+        """A wait is over."""
+        unit, wait = self.unit, strand.wait
+        assert wait is not None
+        strand.wait = None
+        unit.drop(wait)
+        unit.changed = True
+        if isinstance(strand, Port):
+            self._prompt(strand)
+        if wait.kind == "MC":
+            self._check_position(wait)
+
+    def _check_position(self, wait: Wait) -> None:
+        """MC gave up after TW: stop code 99, and #MCTIME (dmc-1412-1414.txt l.3049)."""
+        unit, main = self.unit, self.unit.state.threads[0]
+        late = [axis for axis in wait.axes if not unit.motion.in_position(axis)]
+        for axis in late:
+            unit.motion.set_stop_code(axis, MC_TIMEOUT)
+        if late and self._may_call(main, "MCTIME"):
+            unit.call(main, "MCTIME", main.pc)
+
+    def _watching(self) -> bool:
+        """Whether the motion can end a wait or call a routine, so that it must keep up with the commands."""
+        unit = self.unit
+        state = unit.state
+        for strand in (*state.threads, *state.ports):
+            if strand.wait is not None and strand.wait.watches:
+                return True
+        if unit.routines and state.threads[0].running:
+            return (
+                "LIMSWI" in unit.routines
+                or "POSERR" in unit.routines
+                or ("ININT" in unit.routines and state.interrupt_armed)
+            )
+        return False
+
+    def _after_sample(self) -> bool:
+        """Ends waits whose watches have tripped and calls routines; True when anything happened."""
+        unit = self.unit
+        motion, happened = unit.clock.motion, False
+        for strand in (*unit.state.threads, *unit.state.ports):
+            wait = strand.wait
+            if wait is not None and wait.watches and all(motion.tripped(watch) for watch in wait.watches):
+                self.release(strand)
+                happened = True
+        if unit.routines and unit.state.threads[0].running:
+            happened |= self._call_routines()
+        return happened
+
+    def _may_call(self, main: Thread, label: str) -> bool:
+        unit = self.unit
+        return (
+            main.running
+            and label in unit.routines
+            and len(main.stack) < unit.model.subroutine_levels
+            and all(frame.kind != label for frame in main.stack)
+        )
+
+    def _call_routines(self) -> bool:
+        """#ININT, #LIMSWI and #POSERR are called while their condition holds (dmc-1412-1414.txt l.2979-3042)."""
+        unit = self.unit
+        state, motion, main = unit.state, unit.clock.motion, unit.state.threads[0]
+        axes = unit.axes()
+        if self._may_call(main, "LIMSWI") and any(motion.driving_into_limit(axis) for axis in axes):
+            unit.call(main, "LIMSWI", main.pc)
+            return True
+        if self._may_call(main, "POSERR") and any(motion.error_exceeded(axis) for axis in axes):
+            unit.call(main, "POSERR", main.pc)
+            return True
+        low = ~state.inputs & state.interrupt_mask
+        if state.interrupt_armed and low and self._may_call(main, "ININT"):
+            state.interrupt_armed = False
+            unit.call(main, "ININT", main.pc)
+            return True
+        return False

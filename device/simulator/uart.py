@@ -1,0 +1,150 @@
+"""The simulated serial port: baud rate, buffers, overrun and handshake, in ticks."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Final
+
+from device.simulator.times import CHARACTER_BITS, TICKS
+
+NEVER: Final = 1 << 62
+OUTPUT_FIFO: Final = 128  # characters, dmc-1412-1414.txt l.1333
+RECEIVE_BUFFER: Final = 256  # characters; no manual says (inferred)
+HOLD_MARGIN: Final = 16  # free places at which the host is told to wait
+
+
+@dataclass(slots=True)
+class Uart:
+    """One port. Fine times count 1/baud of a tick, so that every character ends at its exact time."""
+
+    baud: int | None = None  # None: unpaced, characters take no time
+    handshake: bool = True
+    receive_size: int = RECEIVE_BUFFER
+    line: deque[int] = field(default_factory=deque)  # handed over by the host, not yet clocked in
+    buffer: deque[int] = field(default_factory=deque)  # clocked in, not yet taken by the controller
+    overruns: int = 0  # characters lost since the controller last looked
+    incoming_end: int | None = None  # fine time at which the character on the line is complete
+    line_free: int = 0  # fine time at which the last one was
+    output: deque[int] = field(default_factory=deque)
+    outgoing_end: int | None = None
+    output_free: int = 0
+    sent: bytearray = field(default_factory=bytearray)
+    host_ready: bool = True  # RTS: the host takes characters
+    stopped: bool = False  # the host sent XOFF
+
+    # ------------------------------------------------------------ host's side
+
+    def receive(self, data: bytes, now: int) -> None:
+        """The host hands characters to the line at tick `now`."""
+        self.line.extend(data)
+        self._start_incoming(now)
+
+    def transmit(self) -> bytes:
+        """The characters that have left the port since the last call."""
+        data = bytes(self.sent)
+        self.sent.clear()
+        return data
+
+    def set_host_ready(self, ready: bool, now: int) -> None:
+        """Raises or drops the line by which the host lets characters come."""
+        self.host_ready = ready
+        self._start_outgoing(now)
+
+    @property
+    def clear_to_send(self) -> bool:
+        """False while the controller asks the host to wait."""
+        return not self.handshake or len(self.buffer) < self.receive_size - HOLD_MARGIN
+
+    # ------------------------------------------------------ controller's side
+
+    def take(self, now: int) -> int | None:
+        """The next received character, or None."""
+        if not self.buffer:
+            return None
+        byte = self.buffer.popleft()
+        if self.incoming_end is None and self.line:
+            self._start_incoming(now)
+        return byte
+
+    def send(self, data: bytes, now: int) -> None:
+        """Queues characters for the host."""
+        self.output.extend(data)
+        self._start_outgoing(now)
+
+    def room(self) -> int:
+        """Free places in the output FIFO; negative while more waits than it holds."""
+        return OUTPUT_FIFO - len(self.output)
+
+    def set_stopped(self, stopped: bool, now: int) -> None:
+        """XOFF or XON came from the host."""
+        self.stopped = stopped
+        self._start_outgoing(now)
+
+    def set_baud(self, baud: int | None, now: int) -> None:
+        """Changes the rate; characters on their way start again."""
+        self.baud = baud
+        self.incoming_end = self.outgoing_end = None
+        self.line_free = self.output_free = 0
+        self._start_incoming(now)
+        self._start_outgoing(now)
+
+    def clear(self) -> None:
+        """What a reset does: nothing waits any more."""
+        self.buffer.clear()
+        self.output.clear()
+        self.outgoing_end = None
+        self.stopped = False
+
+    # -------------------------------------------------------------------- time
+
+    def due_in(self) -> int:
+        """The tick at which the next character is complete."""
+        if self.incoming_end is None:
+            return NEVER
+        return -(-self.incoming_end // (self.baud or 1))
+
+    def due_out(self) -> int:
+        """The tick at which the next character has left."""
+        if self.outgoing_end is None:
+            return NEVER
+        return -(-self.outgoing_end // (self.baud or 1))
+
+    def run(self, now: int) -> None:
+        """Completes every character due by `now`."""
+        scale = self.baud or 1
+        while self.incoming_end is not None and self.incoming_end <= now * scale:
+            self._complete_incoming()
+        while self.outgoing_end is not None and self.outgoing_end <= now * scale:
+            self._complete_outgoing()
+
+    def _character(self) -> int:
+        return CHARACTER_BITS * TICKS if self.baud else 0
+
+    def _start_incoming(self, now: int) -> None:
+        if self.incoming_end is None and self.line and self.clear_to_send:
+            self.incoming_end = max(now * (self.baud or 1), self.line_free) + self._character()
+
+    def _complete_incoming(self) -> None:
+        assert self.incoming_end is not None
+        self.line_free = self.incoming_end
+        byte = self.line.popleft()
+        if len(self.buffer) < self.receive_size:
+            self.buffer.append(byte)
+        else:
+            self.overruns += 1
+        self.incoming_end = None
+        if self.line and self.clear_to_send:
+            self.incoming_end = self.line_free + self._character()
+
+    def _start_outgoing(self, now: int) -> None:
+        if self.outgoing_end is None and self.output and self.host_ready and not self.stopped:
+            self.outgoing_end = max(now * (self.baud or 1), self.output_free) + self._character()
+
+    def _complete_outgoing(self) -> None:
+        assert self.outgoing_end is not None
+        self.output_free = self.outgoing_end
+        self.sent.append(self.output.popleft())
+        self.outgoing_end = None
+        if self.output and self.host_ready and not self.stopped:
+            self.outgoing_end = self.output_free + self._character()
