@@ -1,0 +1,639 @@
+"""What is connected, as the windows see it: one facade that hands out commands, memory, motion and outputs, and never blocks."""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+from collections import deque
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codegen.models import Model
+from device import commands, live
+from device.asking import Listing, Prompt, Waiting
+from device.commands import Reply
+from device.door import Door
+from device.download import Download, Downloaded, DownloadFailed, Job, upload_steps
+from device.hold import Lease
+from device.identify import Identity, identify, read_once
+from device.link import Link, Traffic
+from device.poll import Poller
+from device.ring import EMPTY, Row
+from device.stop import NO_ANSWER_S, Stopping, StopState
+from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
+from device.transport import LineSettings, OpenFailed, Transport, open_transport
+from device.wire import Kind as AnswerKind
+from device.wire import Shape, nonces
+
+__all__ = [
+    "Badge",
+    "Controller",
+    "DownloadFailed",
+    "Downloaded",
+    "Identity",
+    "Job",
+    "Kind",
+    "LineSettings",
+    "LinkError",
+    "LinkLost",
+    "NotAllowed",
+    "Notice",
+    "NoticeKind",
+    "Prompt",
+    "Refused",
+    "Reply",
+    "Row",
+    "State",
+    "StopState",
+    "Stopped",
+    "Traffic",
+]
+T = TypeVar("T")
+
+
+class Kind(StrEnum):
+    MACHINE = "machine"
+    SIMULATOR = "simulator"
+    REPLAY = "replay"
+    OFFLINE = "offline"
+
+
+class State(StrEnum):
+    OFFLINE = "offline"
+    CONNECTING = "connecting"
+    READY = "connected"
+    LOST = "connection lost"
+
+
+class Badge(StrEnum):
+    """How the program in the controller stands to the document."""
+
+    SAME = "same program"
+    CHANGED = "changed since download"
+    UNKNOWN = "unknown program"
+
+
+class NoticeKind(StrEnum):
+    MESSAGE = "message"
+    PROMPT = "question"
+    FAULT = "fault"
+    LOST = "lost"
+    CONNECTED = "connected"
+    IDENTIFIED = "identified"
+    RESTARTED = "restarted"
+    STOP = "stop"
+    CONTROL = "control"
+    DOWNLOAD = "download"
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """Something that happened, in one sentence."""
+
+    kind: NoticeKind
+    text: str
+    at: float
+
+
+class Closeable(Protocol):
+    def close(self) -> None: ...
+
+
+class Controller:
+    """One controller: machine or simulator. Every call returns at once; answers come in futures, happenings in `notices`."""
+
+    def __init__(
+        self,
+        opener: Callable[[], Transport] | None,
+        *,
+        kind: Kind,
+        line: LineSettings | None = None,
+        model: Model | None = None,
+        program_folder: Path | None = None,
+        idle_limit_s: float = 600.0,
+        clock: Callable[[], float] = time.monotonic,
+        own: Closeable | None = None,
+        threaded: bool = True,
+    ) -> None:
+        self.kind, self.line, self.clock = kind, line or LineSettings(), clock
+        self.state = State.OFFLINE if opener is None else State.CONNECTING
+        self.state_text = "Offline" if opener is None else "Connecting…"
+        self.identity: Identity | None = None
+        self.model = model
+        self._stop_state = StopState.NO_LINK
+        self._stopping: Stopping | None = None
+        self._stop_pressed_at = 0.0
+        self.stopping_time_s = 1.0
+        self.idle_limit_s = idle_limit_s
+        self.io_control = False
+        self.listing: str | None = None
+        self.program_folder = program_folder
+        self.door = Door()
+        self.waiting = Waiting()
+        self.nonces = nonces()
+        self.poller = Poller(self.line, clock, self.nonces, self._suspended, self._read)
+        self.memory = Memory(self)
+        self.motion = Motion(self)
+        self.io = Io(self)
+        self._expected_model = model
+        self._own = own
+        self._notices: deque[Notice] = deque(maxlen=2000)
+        self._document: str | None = None
+        self._time: tuple[float, float] | None = None
+        self._used = clock()
+        self._was_lost = False
+        self.door.control = kind is Kind.SIMULATOR
+        self.link = Link(opener or _no_transport, self.line, _Events(self), self.door, clock)
+        if opener is not None and threaded:
+            self.link.start()
+
+    @classmethod
+    def offline(cls) -> Controller:
+        """No controller: everything that asks fails with one sentence."""
+        return cls(None, kind=Kind.OFFLINE)
+
+    @classmethod
+    def connect(
+        cls, address: str, line: LineSettings | None = None, *, kind: Kind | None = None, **more: Any
+    ) -> Controller:
+        """A machine at a serial device or `socket://…`; `simulator:MODEL` starts a simulated controller of our own."""
+        if address == "simulator" or address.startswith("simulator:"):
+            from device.simulator.process import SimulatorProcess
+
+            process = SimulatorProcess(address.partition(":")[2] or "ssc4")
+            settings = line or LineSettings(baud=None)
+            return cls(
+                lambda: open_transport(process.address, settings),
+                kind=Kind.SIMULATOR,
+                line=settings,
+                own=process,
+                **more,
+            )
+        settings = line or LineSettings()
+        return cls(lambda: open_transport(address, settings), kind=kind or Kind.MACHINE, line=settings, **more)
+
+    # ---------------------------------------------------------------- control
+
+    @property
+    def control(self) -> bool:
+        """Whether what moves, sets or downloads may leave (else: Watch)."""
+        return self.door.control
+
+    def take_control(self) -> None:
+        self._used = self.clock()
+        if not self.door.control and self.kind is not Kind.OFFLINE:
+            self.door.control = True
+            self.notify(NoticeKind.CONTROL, "Control taken.")
+
+    def release_control(self, why: str = "Watch: only reading and STOP.") -> None:
+        self.io_control = False
+        self.motion.release()
+        if self.door.control:
+            self.door.control = False
+            self.notify(NoticeKind.CONTROL, why)
+
+    def set_io_control(self, on: bool) -> None:
+        self.io_control = on and self.control
+
+    def close(self) -> None:
+        self.motion.release()
+        self.link.close()
+        if self._own is not None:
+            self._own.close()
+        self.state, self.state_text, self._stop_state = State.OFFLINE, "Offline", StopState.NO_LINK
+
+    @property
+    def axes(self) -> str:
+        """The axis letters there are, as far as known."""
+        if self.model is not None:
+            return self.model.axes
+        return self.identity.axes if self.identity is not None else ""
+
+    # ------------------------------------------------------------------- STOP
+
+    def stop(self) -> None:
+        """Stops everything, ahead of everything; pressed again while it is not proved, it aborts."""
+        if self.link.transport is None:
+            self._show_stop(StopState.NO_LINK if self.state is State.OFFLINE else StopState.NOT_CONFIRMED)
+            return
+        again = self._stop_state in (StopState.STOPPING, StopState.NOT_CONFIRMED)
+        self.motion.release()
+        self._stopping, self._stop_pressed_at = None, self.clock()
+        self._show_stop(StopState.STOPPING)
+        self.link.stop(lambda sure: self._stop_steps(sure, abort=again))
+
+    def _stop_steps(self, sure: bool, *, abort: bool) -> Steps[bool]:
+        model = self.model
+        self._stopping = stopping = Stopping(
+            command_mode=sure and not self._suspended(),
+            axes=self.axes or "X",
+            sequence=model is not None and model.coordinated,
+            threads=model.threads if model is not None else 1,
+            columns=model.columns if model is not None else 40,
+            chained=self.line.address is not None,
+            stopping_time_s=self.stopping_time_s,
+            clock=self.clock,
+            nonces=self.nonces,
+            show=self._show_stop,
+            abort=abort,
+            heard=self._stop_pressed_at,
+        )
+        still = yield from stopping.steps()
+        if still:
+            self.waiting.restarted()
+            self.waiting.threads(frozenset())
+            self.door.question = ""
+        return still
+
+    @property
+    def stop_state(self) -> StopState:
+        """What the STOP button shows; 500 ms without an answer is NOT CONFIRMED, whatever the link is doing."""
+        if self._stop_state is StopState.STOPPING:
+            stopping = self._stopping
+            heard = self._stop_pressed_at if stopping is None else stopping.heard
+            if self.clock() - heard >= NO_ANSWER_S:
+                self._show_stop(StopState.NOT_CONFIRMED)
+        return self._stop_state
+
+    @property
+    def stop_text(self) -> str:
+        return str(self.stop_state)
+
+    def _show_stop(self, state: StopState) -> None:
+        if state is not self._stop_state:
+            self._stop_state = state
+            self.notify(NoticeKind.STOP, f"STOP: {state}.")
+
+    # --------------------------------------------------------------- asking
+
+    def ask(self, command: str, timeout_s: float | None = None) -> Future[Reply]:
+        """One line as a person types it; the reply says whether it was accepted, and why not."""
+        self._used = self.clock()
+        return self.run(commands.typed(self, command, timeout_s), Priority.USER, "user")
+
+    def read(self, *expressions: str) -> Future[tuple[float, ...]]:
+        """Reads expressions (`_KPX`, `V1`) right under any number format; refused ones raise Refused."""
+        return self.run(self._read_steps(expressions), Priority.USER, "user")
+
+    def _read_steps(self, expressions: tuple[str, ...]) -> Steps[tuple[float, ...]]:
+        values: list[float] = []
+        for expression in expressions:
+            answer = yield from read_once(self.nonces, (expression, Shape(10, 4)))
+            if answer.kind is not AnswerKind.VALUES:
+                raise (yield from commands.reason(self, answer, expression))
+            values += answer.values
+        return tuple(values)
+
+    def run(self, steps: Steps[T], priority: Priority, source: str) -> Future[T]:
+        """Puts steps on the link."""
+        if self.state is State.OFFLINE:
+            steps.close()
+            future: Future[T] = Future()
+            future.set_exception(LinkLost("Offline: there is no controller. Connect first."))
+            return future
+        return self.link.submit(steps, priority, source).future
+
+    def answer(self, text: str) -> Future[None]:
+        """Answers the question of the program that waits."""
+        return self.run(self._answer_steps(text), Priority.USER, "user")
+
+    def _answer_steps(self, text: str) -> Steps[None]:
+        yield Send(data_line(text), answers_prompt=True)
+        self.waiting.answered()
+        self.link.wire.take_rest()
+        self.door.question = self.waiting.question
+
+    @property
+    def pending_prompt(self) -> Prompt | None:
+        return self.waiting.prompt
+
+    def resume_polling(self) -> None:
+        """The person says that nothing is waiting: reading goes on."""
+        self.waiting.prompt, self.waiting.data_mode, self.waiting.free = None, False, True
+        self.door.question = ""
+
+    # ------------------------------------------------------------ live values
+
+    def watch(self, owner: str, keys: Iterable[str]) -> None:
+        self.poller.watch(owner, keys)
+
+    def last(self) -> Row:
+        return self.poller.ring.last() if self.poller.ring.columns else EMPTY
+
+    def tail(self, count: int) -> NDArray[np.float64]:
+        return self.poller.ring.tail(count)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        return self.poller.ring.columns
+
+    @property
+    def rate_hz(self) -> float:
+        """Cycles of live values a second."""
+        return self.poller.rate_hz
+
+    @property
+    def polling(self) -> bool:
+        return self.state is State.READY and not self._suspended()
+
+    @property
+    def polling_text(self) -> str:
+        """Why live values rest, or how fast they come."""
+        return self._suspended() or f"{self.rate_hz:.0f} readings/s"
+
+    def _suspended(self) -> str:
+        return self.waiting.question or self.waiting.imminent
+
+    def _read(self, values: dict[str, float]) -> None:
+        """A poll was answered (on the link's thread)."""
+        now = self.clock()
+        threads = {key: value for key, value in values.items() if key.startswith("thread")}
+        if threads and self.model is not None and len(threads) == self.model.threads:
+            self.waiting.threads(frozenset(int(value) for value in threads.values() if value >= 0))
+        if "time" in values:
+            self._check_clock(values["time"], now)
+        if self.kind is Kind.MACHINE and self.control and now - self._used > self.idle_limit_s:
+            self.release_control("Back to Watch: nothing was done for a while.")
+        if self.state is State.LOST:
+            self._answers_again()
+
+    def _check_clock(self, samples: float, now: float) -> None:
+        """A clock that went back means the controller was restarted."""
+        if self._time is not None and samples + 200 < self._time[0] and not self._time[0] > 2.1e9:
+            self._restarted()
+        self._time = (samples, now)
+
+    def _restarted(self) -> None:
+        self.listing = None
+        self.waiting.listing = None
+        self.waiting.restarted()
+        self.notify(
+            NoticeKind.RESTARTED, "The controller was restarted: homed marks and the program badge are no longer known."
+        )
+        if self.kind is Kind.MACHINE:
+            self.release_control("Back to Watch: the controller was restarted.")
+
+    def _answers_again(self) -> None:
+        self.state, self.state_text = State.READY, "Connected"
+        self._show_stop(StopState.READY)
+        self.notify(NoticeKind.CONNECTED, "The controller answers again.")
+
+    # --------------------------------------------------------------- programs
+
+    def download(self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None) -> Job[Downloaded]:
+        return self.memory.download(listing, progress)
+
+    def upload(self) -> Job[str]:
+        return self.memory.upload()
+
+    def burn_program(self) -> Future[Reply]:
+        return self.memory.burn_program()
+
+    def show_listing(self, text: str) -> None:
+        """The code of the document now; the badge compares it with what the controller holds."""
+        self._document = text
+
+    @property
+    def program_badge(self) -> Badge:
+        if self.listing is None:
+            return Badge.UNKNOWN
+        if self._document is None:
+            return Badge.CHANGED
+        from device.download import program_lines
+
+        return Badge.SAME if program_lines(self._document) == program_lines(self.listing) else Badge.CHANGED
+
+    def execute(self, label: str | None = None, thread: int = 0, anyway: bool = False) -> Future[Reply]:
+        """Starts the verified program at a label; `anyway` runs what is in the controller."""
+        if self.program_badge is not Badge.SAME and not anyway:
+            future: Future[Reply] = Future()
+            words = (
+                "has changed since the download"
+                if self.program_badge is Badge.CHANGED
+                else "in the controller is unknown"
+            )
+            future.set_exception(
+                NotAllowed(f"Not started: the program {words}. Download it, or run what is in the controller.")
+            )
+            return future
+        target = "" if label is None else (label if label.startswith("#") else f"#{label}")
+        command = f"XQ {target}" + (f",{thread}" if thread or target else "") if target else "XQ"
+        return self.ask(command)
+
+    def halt(self) -> Future[Reply]:
+        """Ends all programs, then all motion."""
+        return self.run(commands.halt(self), Priority.USER, "user")
+
+    def set_listing(self, listing: str | None) -> None:
+        """What the controller is known to hold (on the link's thread)."""
+        self.listing = listing
+        self.waiting.listing = Listing(listing) if listing is not None else None
+
+    # ---------------------------------------------------------------- notices
+
+    def notify(self, kind: NoticeKind, text: str) -> None:
+        self._notices.append(Notice(kind, text, self.clock()))
+
+    def notices(self) -> list[Notice]:
+        """What happened since the last call."""
+        found = []
+        while self._notices:
+            found.append(self._notices.popleft())
+        return found
+
+    def traffic(self, after: int = 0) -> list[Traffic]:
+        """Lines that went over the wire, newer than number `after`."""
+        return [line for line in list(self.link.record) if line.number > after]
+
+
+class _Events:
+    """Hears the link and keeps the controller's state (on the link's thread)."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+
+    def opened(self) -> None:
+        c = self._c
+        c.state, c.state_text = State.CONNECTING, "Asking who is there…"
+        c.link.submit(self._meet(), Priority.USER, "poll")
+
+    def _meet(self) -> Steps[None]:
+        """Identifies, learns whether a program runs and may ask, then starts reading."""
+        c = self._c
+        identity = yield from self._identify()
+        c.identity = identity
+        c.model = identity.model or c._expected_model
+        if c.model is not None:
+            c.poller.columns = c.model.columns
+            if c.poller.ring.columns != live.columns(c.model):
+                c.poller.set_columns(live.columns(c.model))
+        c.waiting.restarted()
+        yield from self._programs()
+        c.state, c.state_text = State.READY, f"Connected: {identity.text or 'unknown controller'}"
+        c._show_stop(StopState.READY)
+        c.notify(NoticeKind.IDENTIFIED, f"Connected to {identity.text or 'a controller that does not name itself'}.")
+        c.link.submit(c.poller.run(), Priority.POLL, "poll")
+
+    def _identify(self) -> Steps[Identity]:
+        c = self._c
+        while True:
+            try:
+                return (yield from identify(c.nonces, c.line.address))
+            except LinkLost as reason:
+                if c.state is not State.LOST:
+                    self.lost(str(reason), refused=True)
+
+    def _programs(self) -> Steps[None]:
+        """Which threads run; a running program that is not known is read, because it may ask."""
+        c = self._c
+        threads = c.model.threads if c.model is not None else 1
+        lines = []
+        for number in range(threads):
+            answer = yield from read_once(c.nonces, (f"_XQ{number}", Shape(4, 0)))
+            lines += [int(v) for v in answer.values if v >= 0]
+        if lines and c.listing is None:
+            text = yield from upload_steps(c.nonces, None)
+            c.waiting.listing = Listing(text)
+        c.waiting.threads(frozenset(lines))
+
+    def lost(self, sentence: str, *, refused: bool) -> None:
+        c = self._c
+        new = c.state is not State.LOST or c.state_text != sentence
+        c.state, c.state_text = State.LOST, sentence
+        if c._stop_state is StopState.STOPPING:
+            c._show_stop(StopState.NOT_CONFIRMED)
+        elif c._stop_state is not StopState.NOT_CONFIRMED:
+            c._show_stop(StopState.NO_LINK)
+        if new:
+            c.notify(NoticeKind.LOST, sentence)
+        if not refused and c.kind is Kind.MACHINE:
+            c.release_control("Back to Watch: the connection was lost.")
+
+    def text(self, line: str) -> None:
+        c = self._c
+        fault = re.fullmatch(r"\?\s*(\d{3}) (.*)", line)
+        c.notify(NoticeKind.FAULT if fault else NoticeKind.MESSAGE, line)
+
+    def standing(self, rest: str) -> None:
+        c = self._c
+        if c.waiting.seen(rest):
+            c.door.question = c.waiting.question
+            c.notify(NoticeKind.PROMPT, rest)
+
+    def sent(self, data: bytes, source: str) -> None:
+        """What leaves may change what the controller holds or waits for."""
+        commands.sent(self._c, data, source)
+
+
+def _no_transport() -> Transport:
+    raise OpenFailed("Offline: there is no controller.")
+
+
+class Memory:
+    """Programs in and out, and what survives switching off."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+
+    def download(self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None) -> Job[Downloaded]:
+        job: Job[Downloaded] = Job(progress)
+        c = self._c
+        download = Download(
+            listing, job, model=c.model, line=c.line, nonces=c.nonces, clock=c.clock, folder=c.program_folder
+        )
+        job.future = c.run(self._downloading(download), Priority.DOWNLOAD, "download")
+        return job
+
+    def _downloading(self, download: Download) -> Steps[Downloaded]:
+        c = self._c
+        c.motion.release()
+        try:
+            done = yield from download.steps()
+        except LinkError as reason:
+            if download.touched:
+                c.set_listing(None)
+            c.notify(NoticeKind.DOWNLOAD, str(reason))
+            raise
+        c.set_listing(download.text)
+        c.notify(NoticeKind.DOWNLOAD, done.sentence)
+        return done
+
+    def upload(self, progress: Callable[[Job[str]], None] | None = None) -> Job[str]:
+        job: Job[str] = Job(progress)
+        job.future = self._c.run(self._uploading(job), Priority.DOWNLOAD, "download")
+        return job
+
+    def _uploading(self, job: Job[str]) -> Steps[str]:
+        text = yield from upload_steps(self._c.nonces, job)
+        self._c.set_listing(text)
+        return text
+
+    def burn_program(self) -> Future[Reply]:
+        """BP: up to 10 s; not while anything runs or moves."""
+        return self._c.run(commands.typed(self._c, "BP", 15.0), Priority.USER, "user")
+
+    def burn_parameters(self) -> Future[Reply]:
+        return self._c.run(commands.typed(self._c, "BN", 3.0), Priority.USER, "user")
+
+    def burn_variables(self) -> Future[Reply]:
+        return self._c.run(commands.typed(self._c, "BV", 5.0), Priority.USER, "user")
+
+    def burn_words(self) -> str:
+        """What the next power-up will do once the program is burned."""
+        listing = self._c.listing
+        if listing is None:
+            return "The program in the controller is unknown. Burned, it will be there after the next power-up; if it has an #AUTO it starts by itself."
+        if re.search(r"(?m)(^|;)\s*#\s*AUTO\b", listing):
+            return "At the next power-up this program starts by itself at #AUTO: the machine may move as soon as it is switched on."
+        return "At the next power-up this program is in the controller but does not start: it has no #AUTO."
+
+
+class Motion:
+    """Moving by hand: a lease held by one axis at a time."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+        self._lease: Lease | None = None
+
+    def hold(self, axis: str, speed_counts_s: float, acceleration: float, deceleration: float) -> Future[None]:
+        """Moves while `renew` is called at least every 150 ms."""
+        self.release()
+        c = self._c
+        c._used = c.clock()
+        speed = math.trunc(speed_counts_s)
+        lease = Lease(axis, speed, math.trunc(acceleration), math.trunc(deceleration), c.clock, c.nonces)
+        lease.renew()
+        self._lease = lease
+        return c.run(lease.steps(), Priority.LEASE, "user")
+
+    def renew(self) -> None:
+        if self._lease is not None:
+            self._lease.renew()
+
+    def release(self) -> None:
+        if self._lease is not None:
+            self._lease.release()
+            self._lease = None
+
+
+class Io:
+    """Outputs by hand."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+
+    def set_output(self, number: int, on: bool) -> Future[Reply]:
+        """Switches one output; needs Control and I/O control."""
+        if not self._c.io_control:
+            future: Future[Reply] = Future()
+            future.set_exception(NotAllowed("Not sent: switch I/O control on to set outputs by hand."))
+            return future
+        return self._c.ask(f"{'SB' if on else 'CB'} {number}")

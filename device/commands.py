@@ -1,0 +1,148 @@
+"""Lines as a person types them: sent with their proof where that is possible, and replies in words."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.twoletter import nodes
+from codegen.twoletter.parse import parse_line
+from codegen.twoletter.problems import ERROR_TEXTS
+from device.asking import Listing
+from device.download import proved, upload_steps
+from device.identify import fence
+from device.tasks import LinkError, LinkLost, Refused, Send, Steps, data_line
+from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, Upload, framed
+
+if TYPE_CHECKING:
+    from device.api import Controller
+
+ALONE = frozenset(["DL", "ED", "QD", "RS", "UL", "CI"])  # nothing can stand behind these on a line
+REPLACES = frozenset(["DL", "ED", "RS"])
+SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}
+USUAL_S = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """The answer to one line; `certain` False when a program's text may be mixed in; `reason` says why it was refused."""
+
+    text: str
+    accepted: bool
+    certain: bool = True
+    code: int = 0
+    reason: str = ""
+
+
+def names(command: str) -> list[str]:
+    """The two-letter names on a line."""
+    return [s.name for s in parse_line(command).statements if isinstance(s, nodes.Command)]
+
+
+def typed(controller: Controller, command: str, timeout_s: float | None) -> Steps[Reply]:
+    """Sends a line and reads its reply."""
+    if command in ("\x12\x16", "^R^V"):
+        answer = yield Send(b"\x12\x16", Revision(), timeout_s or USUAL_S)
+        return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
+    command = command.rstrip("\r\n")
+    data_line(command)
+    found = names(command)
+    if any(name == "XQ" for name in found):
+        yield from _know_program(controller)
+    limit = timeout_s or max([SLOW.get(name, USUAL_S) for name in found], default=USUAL_S)
+    if "UL" in found:
+        answer = yield Send(data_line(command), Upload(), timeout_s=1.0, extends=True)
+        return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
+    if _plain(command, found, controller):
+        return (yield from _with_proof(controller, command, limit))
+    answer = yield Send(data_line(command), Prompts(1), limit)
+    return (yield from _reply(controller, answer, command))
+
+
+def _plain(command: str, found: list[str], controller: Controller) -> bool:
+    columns = controller.model.columns if controller.model is not None else 40
+    line = parse_line(command)
+    broken = any(isinstance(s, nodes.Broken | nodes.Foreign | nodes.Comment | nodes.Label) for s in line.statements)
+    fits = len(command) + 1 + FRAME_COLUMNS <= columns
+    return (
+        bool(line.statements) and fits and not broken and not ALONE & set(found) and not re.search(r"[%!\\]", command)
+    )
+
+
+def _with_proof(controller: Controller, command: str, limit: float) -> Steps[Reply]:
+    """The frame behind the command comes only when the command was accepted."""
+    nonce = next(controller.nonces)
+    count = len(command.split(";")) if '"' not in command else len(parse_line(command).statements)
+    line = f"{command};{framed(nonce, ())}"
+    answer = yield Send(data_line(line), Proof(nonce, count), limit, refusal_s=0.05)
+    return (yield from _reply(controller, answer, command))
+
+
+def _reply(controller: Controller, answer: Answer, command: str) -> Steps[Reply]:
+    if answer.kind is Kind.ACCEPTED:
+        return Reply(answer.text, True, answer.certain)
+    if answer.kind is Kind.SILENT:
+        raise LinkLost(f"No answer to “{command}”.")
+    fenced = yield from fence(controller.nonces)
+    if fenced.kind is not Kind.VALUES:
+        raise LinkLost(f"No clear answer to “{command}”.")
+    controller.link.wire.strip_question()
+    code = int(fenced.values[0])
+    text = answer.text.removesuffix("?").strip()
+    return Reply(
+        text, False, True, code, f"{command}: refused, error {code}, {ERROR_TEXTS.get(code, 'unknown error')}."
+    )
+
+
+def reason(controller: Controller, answer: Answer, expression: str) -> Steps[LinkError]:
+    """Why a read was not answered, as the error to raise."""
+    if answer.kind is Kind.SILENT:
+        return LinkLost(f"No answer when reading {expression}.")
+    fenced = yield from fence(controller.nonces)
+    if fenced.kind is Kind.VALUES and "?" in answer.text:
+        code = int(fenced.values[0])
+        return Refused(
+            code, f"{expression} can not be read here: error {code}, {ERROR_TEXTS.get(code, 'unknown error')}."
+        )
+    return LinkLost(f"Reading {expression} was disturbed; try again.")
+
+
+def halt(controller: Controller) -> Steps[Reply]:
+    """`HX`, then `ST`."""
+    answer = yield from proved(controller.nonces, "HX;ST", USUAL_S)
+    return (yield from _reply(controller, answer, "HX;ST"))
+
+
+def _know_program(controller: Controller) -> Steps[None]:
+    """Before a program starts its listing is read: whether it asks questions decides what may be sent while it runs."""
+    if controller.waiting.listing is None:
+        text = yield from upload_steps(controller.nonces, None)
+        controller.waiting.listing = Listing(text)
+
+
+def sent(controller: Controller, data: bytes, source: str) -> None:
+    """Keeps account of what a line changes: a program started, edited, erased; the port turned into a data port."""
+    if source in ("poll", "stop") or not data.endswith(b"\r") or not data.isascii():
+        return
+    for statement in parse_line(data[:-1].decode("ascii")).statements:
+        if not isinstance(statement, nodes.Command):
+            continue
+        if statement.name == "XQ":
+            controller.waiting.started(_target(statement))
+        elif statement.name in REPLACES and source == "user":
+            controller.set_listing(None)
+        elif statement.name == "CI" and len(statement.arguments) > 2:
+            third = statement.arguments[2]
+            controller.waiting.data_mode = isinstance(third, nodes.Number) and third.scaled != 0
+            controller.door.question = controller.waiting.question
+
+
+def _target(statement: nodes.Command) -> str:
+    target = statement.arguments[0] if statement.arguments else None
+    if isinstance(target, nodes.Target):
+        if target.label is not None:
+            return f"#{target.label}"
+        if isinstance(target.line, nodes.Number):
+            return str(target.line.scaled // nodes.ONE)
+    return ""

@@ -1,0 +1,74 @@
+"""Who is there: the revision text, the controller type, its axes and its serial number; an unknown text is never guessed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from codegen.models import MODELS, Model
+from device.tasks import LinkLost, Send, Steps
+from device.wire import Answer, Frame, Kind, Proof, Revision, Shape, framed
+
+REVISION = b"\x12\x16"
+TEXTS = ((r"DMC ?-?15([1-4])0\b", "ssc{}"), (r"\bSSC ?-?([1-4])\b", "ssc{}"), (r"DMC ?-?(1412|1414)\b", "dmc{}"))
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """What the controller said about itself; `model` None when its text is not known."""
+
+    text: str
+    model: Model | None
+    axes: str
+    serial: int | None = None
+
+
+def model_of(text: str) -> Model | None:
+    """The controller type a revision text names, or None: never a guess."""
+    for pattern, name in TEXTS:
+        match = re.search(pattern, text, re.IGNORECASE)
+        if match is not None:
+            return MODELS.get(name.format(match.group(1)))
+    return None
+
+
+def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identity]:
+    """Asks for the revision; where the text is unknown, counts the axes in the answer to TP."""
+    if address is not None:
+        yield Send(f"%{address}\r".encode())
+    answer = yield Send(REVISION, Revision(), timeout_s=1.0)
+    text = answer.text if answer.kind is Kind.ACCEPTED else ""
+    model = model_of(text)
+    serial = yield from _serial(nonces)
+    if model is not None:
+        return Identity(text, model, model.axes, serial)
+    axes = yield from _count_axes(nonces)
+    if not text and not axes:
+        raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
+    return Identity(text, None, axes, serial)
+
+
+def _serial(nonces: Iterator[str]) -> Steps[int | None]:
+    answer = yield from read_once(nonces, ("_BN", Shape(10, 0)))
+    return int(answer.values[0]) if answer.kind is Kind.VALUES else None
+
+
+def _count_axes(nonces: Iterator[str]) -> Steps[str]:
+    nonce = next(nonces)
+    answer = yield Send(f"TP;{framed(nonce, ())}\r".encode(), Proof(nonce), timeout_s=1.0)
+    if answer.kind is not Kind.ACCEPTED or not answer.certain or not answer.text:
+        return ""
+    return "XYZW"[: answer.text.count(",") + 1]
+
+
+def read_once(nonces: Iterator[str], *reads: tuple[str, Shape], timeout_s: float = 0.6) -> Steps[Answer]:
+    """One framed read."""
+    nonce = next(nonces)
+    shapes = tuple(shape for _, shape in reads)
+    return (yield Send(framed(nonce, reads).encode() + b"\r", Frame(nonce, shapes), timeout_s, refusal_s=0.05))
+
+
+def fence(nonces: Iterator[str], timeout_s: float = 0.6) -> Steps[Answer]:
+    """A read that is always valid: once it is answered, everything sent before it has been worked off."""
+    return (yield from read_once(nonces, ("_TC", Shape(3, 0)), timeout_s=timeout_s))

@@ -1,0 +1,146 @@
+"""What to ask, how often, from what is being watched: at most 30 % of the line, and few commands of the interpreter's time."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from typing import TypeAlias
+
+from device import live
+from device.ring import Ring
+from device.tasks import NotAllowed, Send, Step, Stopped, Wait
+from device.transport import LineSettings
+from device.wire import FRAME_COLUMNS, Answer, Frame, Kind, Shape, framed
+
+SHARE = 0.30  # of the line's time
+LEAST_S = 0.025  # between requests: one command takes 0.5 ms, so 2 % of the interpreter
+SLOW_S = 0.5  # period of values that change rarely
+ALWAYS = ("thread0", "thread1", "thread2", "thread3", "time")
+REFUSALS = 3  # a value refused this often is not asked again
+
+Request: TypeAlias = list[tuple[str, str, Shape]]  # key, expression, shape
+PollSteps: TypeAlias = Generator[Step, Answer, None]
+
+
+def requests(keys: Sequence[str], columns: int) -> list[Request]:
+    """The fewest lines of at most so many columns that read these keys."""
+    lines: list[Request] = []
+    room = 0
+    for key in keys:
+        expression, shape = live.expression(key)
+        cost = 1 + len(expression) + len(shape.format)
+        if not lines or cost > room:
+            lines.append([])
+            room = columns - FRAME_COLUMNS
+        lines[-1].append((key, expression, shape))
+        room -= cost
+    return lines
+
+
+class Poller:
+    """Reads what is watched, for ever, at the pace the line allows; `run` is its task."""
+
+    def __init__(
+        self,
+        line: LineSettings,
+        clock: Callable[[], float],
+        nonces: Iterator[str],
+        suspended: Callable[[], str],
+        read: Callable[[dict[str, float]], None],
+    ) -> None:
+        self.ring = Ring(())
+        self.columns = 80
+        self.rate_hz = 0.0
+        self._line, self._clock, self._nonces = line, clock, nonces
+        self._suspended, self._read = suspended, read
+        self._wanted: dict[str, tuple[str, ...]] = {}
+        self._refused: Counter[str] = Counter()
+        self._slow_due = 0.0
+        self._cycles: deque[float] = deque(maxlen=8)
+
+    def watch(self, owner: str, keys: Iterable[str]) -> None:
+        """What one owner needs now; nothing ends its wish. Callable from any thread."""
+        wanted = dict(self._wanted)
+        wanted[owner] = tuple(keys)
+        self._wanted = {name: value for name, value in wanted.items() if value}
+
+    def set_columns(self, names: Sequence[str]) -> None:
+        """Which values this controller has; the ring starts afresh."""
+        self.ring = Ring(names)
+        self._refused.clear()
+
+    def wanted(self) -> tuple[str, ...]:
+        """The union of what is watched, as far as it exists here."""
+        asked = {key for keys in list(self._wanted.values()) for key in keys}
+        return tuple(key for key in self.ring.columns if key in asked and self._refused[key] < REFUSALS)
+
+    def run(self) -> PollSteps:
+        """The task: cycles of requests, each followed by the rest it owes the line."""
+        while True:
+            start = self._clock()
+            keys = self._due(start)
+            if not keys or self._suspended():
+                yield from self._rest(0.05)
+                if self._suspended():
+                    self.rate_hz = 0.0
+                continue
+            for request in requests(keys, self.columns):
+                if self._suspended():
+                    break
+                yield from self._one(request)
+            self._measure(start)
+
+    def _due(self, now: float) -> tuple[str, ...]:
+        """Fast values in every cycle, slow ones and the threads twice a second."""
+        wanted = self.wanted()
+        always = tuple(key for key in ALWAYS if key in self.ring.columns)
+        slow = now >= self._slow_due
+        if slow:
+            self._slow_due = now + SLOW_S
+        chosen = {key for key in wanted if slow or not live.split(key)[0].slow} | (set(always) if slow else set())
+        return tuple(key for key in self.ring.columns if key in chosen)
+
+    def _one(self, request: Request) -> PollSteps:
+        nonce = next(self._nonces)
+        reads = [(expression, shape) for _, expression, shape in request]
+        shapes = tuple(shape for _, shape in reads)
+        text = framed(nonce, reads)
+        start = self._clock()
+        try:
+            answer = yield Send(
+                text.encode() + b"\r", Frame(nonce, shapes), 0.4 + 60 * self._line.byte_s, refusal_s=0.04
+            )
+        except Stopped:
+            return
+        except NotAllowed:
+            yield from self._rest(0.05)
+            return
+        now = self._clock()
+        if answer.kind is Kind.VALUES:
+            values = {key: value for (key, _, _), value in zip(request, answer.values, strict=True)}
+            self.ring.write(values, now, keep=self.wanted() + ALWAYS)
+            self._read(values)
+        elif answer.kind is Kind.UNCERTAIN and "?" in answer.text:
+            yield from self._find_refused(request)
+        cost = max(len(text) + 1, sum(shape.width for shape in shapes) + 7) * self._line.byte_s
+        yield from self._rest(max(cost / SHARE - (self._clock() - start), LEAST_S - (self._clock() - start), 0.001))
+
+    def _find_refused(self, request: Request) -> PollSteps:
+        """One value of the line may be unknown here: ask singly, and stop asking what is refused."""
+        if len(request) == 1:
+            self._refused[request[0][0]] += 1
+            return
+        for single in request:
+            yield from self._one([single])
+
+    def _rest(self, seconds: float) -> PollSteps:
+        try:
+            yield Wait(seconds)
+        except Stopped:
+            return
+
+    def _measure(self, start: float) -> None:
+        self._cycles.append(max(self._clock() - start, 1e-6))
+        period = sum(self._cycles) / len(self._cycles)
+        self.rate_hz = 1.0 / period
+        self.ring.period_s = period

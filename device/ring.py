@@ -1,0 +1,101 @@
+"""The newest live values and a stretch of their past: one writer, many readers, no lock held by a reader."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+STALE_S = 0.5  # beyond three periods, how much older a value may be before it is shown as stale
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One value per column, each with the time it was read (monotonic seconds); NaN when it is not polled."""
+
+    columns: Mapping[str, int]
+    values: NDArray[np.float64]
+    times: NDArray[np.float64]
+    period_s: float = 0.0
+
+    def value(self, key: str) -> float:
+        """The value, or NaN when it is not polled or unknown here."""
+        place = self.columns.get(key)
+        return float("nan") if place is None else float(self.values[place])
+
+    def time(self, key: str) -> float:
+        """When it was read, or NaN."""
+        place = self.columns.get(key)
+        return float("nan") if place is None else float(self.times[place])
+
+    def stale(self, key: str, now: float) -> bool:
+        """Whether the value is older than it should be (also when there is none)."""
+        age = now - self.time(key)
+        return not age <= 3 * self.period_s + STALE_S
+
+    def has(self, key: str) -> bool:
+        return self.value(key) == self.value(key)
+
+
+EMPTY = Row({}, np.empty(0), np.empty(0))
+
+
+class Ring:
+    """Rows in a circle; `write` is for the link's thread only, everything else for anyone."""
+
+    def __init__(self, columns: Sequence[str], size: int = 20_000) -> None:
+        self.columns = tuple(columns)
+        self.period_s = 0.0
+        self._places = {name: place for place, name in enumerate(self.columns)}
+        self._values = np.full((size, len(self.columns)), np.nan)
+        self._times = np.full((size, len(self.columns)), np.nan)
+        self._size = size
+        self._count = 0
+
+    @property
+    def count(self) -> int:
+        """How many rows were ever written."""
+        return self._count
+
+    def write(self, values: Mapping[str, float], at: float, keep: Iterable[str] | None = None) -> None:
+        """A new row: the last one with these values put in; columns outside `keep` become NaN."""
+        place = self._count % self._size
+        row, times = self._values[place], self._times[place]
+        if self._count:
+            previous = (self._count - 1) % self._size
+            row[:] = self._values[previous]
+            times[:] = self._times[previous]
+        if keep is not None:
+            kept = [self._places[name] for name in keep if name in self._places]
+            dropped = np.ones(len(self.columns), dtype=bool)
+            dropped[kept] = False
+            row[dropped] = np.nan
+            times[dropped] = np.nan
+        for name, value in values.items():
+            column = self._places.get(name)
+            if column is not None:
+                row[column] = value
+                times[column] = at
+        self._count += 1
+
+    def last(self) -> Row:
+        """The newest row (all NaN before the first)."""
+        if not self._count:
+            return Row(self._places, np.full(len(self.columns), np.nan), np.full(len(self.columns), np.nan))
+        place = (self._count - 1) % self._size
+        return Row(self._places, self._values[place].copy(), self._times[place].copy(), self.period_s)
+
+    def tail(self, count: int) -> NDArray[np.float64]:
+        """The newest rows, oldest first."""
+        return self._newest(self._values, count)
+
+    def tail_times(self, count: int) -> NDArray[np.float64]:
+        """When each value of `tail` was read."""
+        return self._newest(self._times, count)
+
+    def _newest(self, source: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+        end = self._count
+        start = max(end - min(count, self._size - 1), 0)
+        return source[np.arange(start, end) % self._size]

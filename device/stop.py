@@ -1,0 +1,133 @@
+"""STOP: one table of state → bytes → proof. Every stop in the program comes through here. It is no emergency stop.
+
+| state of the line                                   | bytes                              | proof                        |
+|-----------------------------------------------------|------------------------------------|------------------------------|
+| command mode                                        | `ST` CR                            | `HX`; no `_BG`, no `_XQn`    |
+| DL, QD, ED, data mode, IN, half a line, XOFF, unknown | `11 1B 5C` `ST` CR `ST` CR       | the same                     |
+| daisy chain                                         | the same with `!ST`                | the same                     |
+| second press, or not still in time                  | the same with `AB`                 | the same                     |
+
+`11` is XON and leaves the line editor, `1B` leaves operator data mode, `5C` (backslash) ends DL and QD. The first `ST` may be taken as the
+answer of an IN; the second acts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from device.tasks import Send, Steps, Wait
+from device.wire import Answer, Frame, Kind, Proof, Shape, framed
+
+NO_ANSWER_S = 0.5  # this long without an answer is NOT CONFIRMED
+GRACE_S = 0.3  # beyond the stopping time before AB
+GIVE_UP_S = 15.0  # a burn keeps a controller silent for up to 10 s
+LEAVE = b"\x11\x1b\x5c"
+
+
+class StopState(StrEnum):
+    """What the STOP button shows."""
+
+    READY = "ready"
+    STOPPING = "stopping…"
+    STOPPED = "stopped (confirmed)"
+    NOT_CONFIRMED = "NOT CONFIRMED - use the machine's emergency stop"
+    NO_LINK = "no link"
+
+
+def stop_bytes(command_mode: bool, *, chained: bool = False, abort: bool = False) -> bytes:
+    """The bytes that stop, for the state the line is in."""
+    word = (b"!" if chained else b"") + (b"AB\r" if abort else b"ST\r")
+    return word if command_mode else LEAVE + word + word
+
+
+@dataclass
+class Stopping:
+    """One stop on its way: sends, then proves that everything is still."""
+
+    command_mode: bool
+    axes: str
+    sequence: bool
+    threads: int
+    columns: int
+    chained: bool
+    stopping_time_s: float
+    clock: Callable[[], float]
+    nonces: Iterator[str]
+    show: Callable[[StopState], None]
+    abort: bool = False
+    heard: float = field(default=0.0)
+
+    def steps(self) -> Steps[bool]:
+        """Ends with whether stillness was proved."""
+        start = self.clock()
+        self.heard = self.heard or start
+        yield Send(stop_bytes(self.command_mode, chained=self.chained, abort=self.abort), hold=True)
+        halted = False
+        while self.clock() - start < GIVE_UP_S:
+            if not halted:
+                halted = yield from self._halt()
+                continue
+            still = yield from self._still()
+            if still:
+                self.show(StopState.STOPPED)
+                return True
+            if not self.abort and self.clock() - start > self.stopping_time_s + GRACE_S:
+                self.abort = True
+                yield Send(stop_bytes(False, chained=self.chained, abort=True), hold=True)
+        self.show(StopState.NOT_CONFIRMED)
+        return False
+
+    def _halt(self) -> Steps[bool]:
+        """`HX`, proved by its frame; without an answer the stop itself is sent again."""
+        nonce = next(self.nonces)
+        line = f"HX;{framed(nonce, ())}"
+        answer = yield Send(line.encode() + b"\r", Proof(nonce), self._patience(), hold=True, refusal_s=0.04)
+        if answer.kind is Kind.ACCEPTED:
+            self._answered()
+            return True
+        self._unanswered()
+        yield Send(stop_bytes(False, chained=self.chained, abort=self.abort), hold=True)
+        return False
+
+    def _still(self) -> Steps[bool]:
+        """Whether no axis is commanded and no thread runs, read afresh."""
+        values: list[float] = []
+        for reads in self._requests():
+            nonce = next(self.nonces)
+            shapes = tuple(shape for _, shape in reads)
+            line = framed(nonce, reads).encode() + b"\r"
+            answer = yield Send(line, Frame(nonce, shapes), self._patience(), hold=True, refusal_s=0.04)
+            if answer.kind is not Kind.VALUES:
+                self._unanswered(answer)
+                return False
+            self._answered()
+            values += answer.values
+        moving = len(self.axes) + self.sequence
+        if any(values[:moving]) or any(value >= 0 for value in values[moving:]):
+            yield Wait(0.01, hold=True)
+            return False
+        return True
+
+    def _requests(self) -> Iterator[Sequence[tuple[str, Shape]]]:
+        """`_BG` of all axes and S, then `_XQn`, in as few lines as fit."""
+        reads = [(f"_BG{axis}", Shape(1, 0)) for axis in self.axes + ("S" if self.sequence else "")]
+        reads += [(f"_XQ{thread}", Shape(4, 0)) for thread in range(self.threads)]
+        line: list[tuple[str, Shape]] = []
+        for read in reads:
+            if line and len(framed("xx", [*line, read])) > self.columns:
+                yield line
+                line = []
+            line.append(read)
+        yield line
+
+    def _patience(self) -> float:
+        return max(0.05, min(0.25, NO_ANSWER_S - (self.clock() - self.heard)))
+
+    def _answered(self) -> None:
+        self.heard = self.clock()
+
+    def _unanswered(self, answer: Answer | None = None) -> None:
+        if self.clock() - self.heard >= NO_ANSWER_S - 0.01:
+            self.show(StopState.NOT_CONFIRMED)

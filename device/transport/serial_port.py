@@ -1,0 +1,91 @@
+"""A serial port (or a pseudo-terminal, which opens like one) through pyserial."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import sys
+
+import serial
+
+from device.transport import LineSettings, OpenFailed, TransportLost
+
+PARITY = {"none": serial.PARITY_NONE, "even": serial.PARITY_EVEN, "odd": serial.PARITY_ODD}
+
+
+class SerialPort:
+    """One serial device, opened for us alone."""
+
+    def __init__(self, device: str, line: LineSettings) -> None:
+        self._device = device
+        self._line = line
+        try:
+            self._port = serial.Serial(
+                device,
+                baudrate=line.baud or 115_200,
+                bytesize=line.bits,
+                parity=PARITY[line.parity],
+                stopbits=line.stop_bits,
+                rtscts=line.handshake in ("rts", "both"),
+                xonxoff=line.handshake in ("xon", "both"),
+                timeout=0,
+                write_timeout=0,
+                exclusive=None if sys.platform == "win32" else True,
+            )
+        except (serial.SerialException, OSError, ValueError) as reason:
+            raise OpenFailed(why_not(device, reason)) from reason
+
+    @property
+    def description(self) -> str:
+        return f"{self._device} at {self._line.baud} baud"
+
+    def read(self, timeout_s: float) -> bytes:
+        try:
+            self._port.timeout = timeout_s
+            first = self._port.read(1)
+            if not first:
+                return b""
+            waiting = self._port.in_waiting
+            return bytes(first) + (bytes(self._port.read(waiting)) if waiting else b"")
+        except (serial.SerialException, OSError, TypeError) as reason:
+            raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
+
+    def write(self, data: bytes) -> int:
+        try:
+            written = self._port.write(data)
+        except serial.SerialTimeoutException:
+            return 0
+        except (serial.SerialException, OSError, TypeError) as reason:
+            raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
+        return len(data) if written is None else int(written)
+
+    def unsent(self) -> int:
+        try:
+            return int(self._port.out_waiting)
+        except (serial.SerialException, OSError, TypeError) as reason:
+            raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
+
+    def discard_output(self) -> None:
+        with contextlib.suppress(serial.SerialException, OSError, TypeError):
+            self._port.reset_output_buffer()
+
+    def close(self) -> None:
+        with contextlib.suppress(serial.SerialException, OSError, TypeError):
+            self._port.reset_output_buffer()
+        with contextlib.suppress(serial.SerialException, OSError, TypeError):
+            self._port.close()
+
+
+def why_not(device: str, reason: Exception) -> str:
+    """Why the port did not open, and what helps, in one sentence."""
+    number = getattr(reason, "errno", None)
+    text = str(reason).lower()
+    if number == errno.EACCES or "permission" in text or "access is denied" in text:
+        if sys.platform == "win32":
+            return f"{device} is in use by another program; close it there and try again."
+        return f'No permission to open {device}: run "sudo usermod -aG dialout $USER" and log in again.'
+    if number == errno.EBUSY or "exclusively lock" in text or "busy" in text or number == errno.EWOULDBLOCK:
+        return f"{device} is in use by another program; close it there and try again."
+    if number == errno.ENOENT or "no such file" in text or "filenotfound" in text or "could not find" in text:
+        return f"There is no port {device}; plug in the adapter or choose another port."
+    return f"{device} did not open ({reason}); choose another port or check its settings."

@@ -1,0 +1,356 @@
+"""Bytes ↔ replies: pairs what the controller sends with what was asked; no input or output here.
+
+Live reads are framed: `MG{^30},"k7",_TPX{F10.0},{^31}` answers `<30>k7 0000000021<31>` CR LF and a prompt. The two letters change
+with every request, every number has a fixed width, and both ends are marked, so text that a program sends in between
+can delay or spoil a read (it is then discarded as uncertain) but never be taken for one. Typed commands are followed by an empty frame
+on the same line: the controller drops the rest of a refused line, so the frame proves that the command was accepted.
+Unsolicited text is what is left. Bit 7, which some controllers set on unsolicited text, is masked.
+"""
+
+from __future__ import annotations
+
+import re
+import string
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+OPEN, CLOSE = 30, 31  # the characters that frame a read
+IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """How a number comes: a sign column, digits, and decimals after a point."""
+
+    digits: int = 10
+    decimals: int = 4
+
+    @property
+    def format(self) -> str:
+        return f"{{F{self.digits}.{self.decimals}}}"
+
+    @property
+    def width(self) -> int:
+        return 1 + self.digits + (self.decimals + 1 if self.decimals else 0)
+
+    @property
+    def pattern(self) -> str:
+        return f"([ -][0-9]{{{self.digits}}}" + (f"\\.[0-9]{{{self.decimals}}})" if self.decimals else ")")
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Expects the framed values of one read."""
+
+    nonce: str
+    shapes: tuple[Shape, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """Expects the answer of a line of `prompts` statements, then the empty frame that proves it was accepted."""
+
+    nonce: str
+    prompts: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Prompts:
+    """Expects this many prompts, or one `?`."""
+
+    count: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """Expects program lines up to control-Z and a prompt."""
+
+
+@dataclass(frozen=True, slots=True)
+class Revision:
+    """Expects one line of text and a prompt, as after control-R control-V."""
+
+
+Expectation = Frame | Proof | Prompts | Upload | Revision
+
+
+class Kind(Enum):
+    VALUES = "values"
+    ACCEPTED = "accepted"
+    REFUSED = "refused"
+    UNCERTAIN = "uncertain"  # something came, but it can not be told apart from a program's text
+    SILENT = "silent"  # nothing came
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What came back for one expectation."""
+
+    kind: Kind
+    values: tuple[float, ...] = ()
+    text: str = ""
+    certain: bool = True
+
+
+def nonces() -> Iterator[str]:
+    """Two-letter marks that come again only after 1296 others."""
+    letters = string.ascii_lowercase + string.digits
+    while True:
+        for first in letters:
+            for second in letters:
+                yield second + first
+
+
+def framed(nonce: str, reads: Sequence[tuple[str, Shape]]) -> str:
+    """The command that sends expressions in a frame."""
+    items = "".join(f",{expression}{shape.format}" for expression, shape in reads)
+    return f'MG{{^{OPEN}}},"{nonce}"{items},{{^{CLOSE}}}'
+
+
+FRAME_COLUMNS = len(framed("xx", ()))
+
+
+class Wire:
+    """Takes bytes as they come and gives answers and texts."""
+
+    def __init__(self) -> None:
+        self._buffer = bytearray()
+        self._marked = bytearray()
+        self._text = ""
+        self._owed = 0
+        self._expected: Expectation | None = None
+        self._question = False
+        self._echoes: deque[str] = deque(maxlen=8)
+        self._lines: deque[str] = deque()
+
+    # ------------------------------------------------------------- expecting
+
+    def expect(self, expectation: Expectation | None, sent: str = "") -> None:
+        """What the next answer is for, and the line that was sent (to know its echo)."""
+        self._release(len(self._buffer))
+        self._expected = expectation
+        self._question = False
+        if sent:
+            self._echoes.append(sent)
+
+    @property
+    def question(self) -> bool:
+        """Whether a `?` came since the last expectation: perhaps a refusal."""
+        return self._question
+
+    def feed(self, data: bytes) -> None:
+        for byte in data:
+            code = byte & 0x7F
+            if code not in IGNORED:
+                self._buffer.append(code)
+                self._marked.append(byte >> 7)
+                self._question |= code == 0x3F
+        if self._owed and self._buffer[:1] == b":":
+            self._drop(1)
+            self._owed -= 1
+        if self._expected is None:
+            self._release(len(self._buffer))
+        elif isinstance(self._expected, Frame):
+            start = self._buffer.find(OPEN)
+            self._release(len(self._buffer) if start < 0 else start)
+
+    def answer(self) -> Answer | None:
+        """The answer to the present expectation, once it is complete."""
+        expected = self._expected
+        if isinstance(expected, Frame):
+            found = self._frame(expected)
+        elif isinstance(expected, Proof):
+            found = self._proof(expected)
+        elif isinstance(expected, Prompts):
+            found = self._prompts(expected.count)
+        elif isinstance(expected, Upload):
+            found = self._upload()
+        elif isinstance(expected, Revision):
+            found = self._revision()
+        else:
+            return None
+        if found is not None:
+            self._expected = None
+            if not self._owed:
+                self._release(len(self._buffer))
+        return found
+
+    def give_up(self) -> Answer:
+        """Ends the present expectation without its answer; what came is text, and the answer says uncertain or silent."""
+        came = bytes(self._buffer).decode("ascii")
+        something = bool(came) or self._question
+        came += "?" if self._question and "?" not in came else ""
+        self._expected = None
+        self._release(len(self._buffer))
+        return Answer(Kind.UNCERTAIN if something else Kind.SILENT, text=came, certain=False)
+
+    def forget(self) -> None:
+        """Throws away everything, as after a lost link."""
+        self._drop(len(self._buffer))
+        self._text, self._owed, self._expected, self._question = "", 0, None, False
+        self._lines.clear()
+        self._echoes.clear()
+
+    # ------------------------------------------------------------------ text
+
+    def lines(self) -> list[str]:
+        """Complete lines of unsolicited text since the last call."""
+        found = list(self._lines)
+        self._lines.clear()
+        return found
+
+    @property
+    def rest(self) -> str:
+        """Unsolicited text without its line end so far: perhaps the prompt of an IN."""
+        text = self._unprompted(self._text, take=False)
+        return "" if any(echo.startswith(text) for echo in self._echoes) else text
+
+    def take_rest(self) -> str:
+        rest = self.rest
+        self._text = ""
+        return rest
+
+    def strip_question(self) -> None:
+        """A `?` that turned out to be a refusal is taken out of the text."""
+        place = self._text.rfind("?")
+        if place >= 0:
+            self._text = self._text[:place] + self._text[place + 1 :]
+
+    # --------------------------------------------------------------- parsing
+
+    def _frame(self, expected: Frame) -> Answer | None:
+        head = bytes([OPEN]) + expected.nonce.encode()
+        start = self._buffer.find(head)
+        if start < 0:
+            return None
+        body = start + len(head)
+        length = sum(shape.width for shape in expected.shapes) + 3
+        if len(self._buffer) - body < length:
+            return None
+        pattern = "".join(shape.pattern for shape in expected.shapes) + f"{chr(CLOSE)}\r\n"
+        match = re.fullmatch(pattern, bytes(self._buffer[body : body + length]).decode("ascii"))
+        if match is None:
+            self._release(start)
+            self._drop(len(head))
+            return Answer(Kind.UNCERTAIN, certain=False)
+        self._release(start)
+        self._drop(len(head) + length)
+        self._owe_one()
+        return Answer(Kind.VALUES, values=tuple(float(group.replace(" ", "")) for group in match.groups()))
+
+    def _proof(self, expected: Proof) -> Answer | None:
+        mark = bytes([OPEN]) + expected.nonce.encode() + bytes([CLOSE]) + b"\r\n"
+        start = self._buffer.find(mark)
+        if start < 0:
+            return None
+        window = self._window(start)
+        self._drop(start + len(mark))
+        self._owe_one()
+        text, certain = _without_prompts(window, expected.prompts)
+        return Answer(Kind.ACCEPTED, text=text, certain=certain)
+
+    def _prompts(self, count: int) -> Answer | None:
+        window = self._window(len(self._buffer))
+        place, seen = 0, 0
+        data: list[str] = []
+        while place < len(window):
+            if window[place] in ":?":
+                refused = window[place] == "?"
+                seen, place = seen + 1, place + 1
+                if refused or seen == count:
+                    rest = window[place:]
+                    self._drop(len(self._buffer))
+                    self._add_text(rest)
+                    kind = Kind.REFUSED if refused else Kind.ACCEPTED
+                    return Answer(kind, text="\n".join(data), certain=not data and not rest)
+                continue
+            end = window.find("\r\n", place)
+            if end < 0:
+                return None
+            data.append(window[place:end])
+            place = end + 2
+        return None
+
+    def _upload(self) -> Answer | None:
+        window = self._window(len(self._buffer))
+        match = re.search("\x1a(?:\r\n)?:", window)
+        if match is None:
+            if window == "?":
+                self._drop(len(self._buffer))
+                return Answer(Kind.REFUSED)
+            return None
+        self._drop(len(self._buffer))
+        self._add_text(window[match.end() :])
+        return Answer(Kind.ACCEPTED, text=window[: match.start()])
+
+    def _revision(self) -> Answer | None:
+        window = self._window(len(self._buffer))
+        match = re.search(r"([^\r\n:?][^\r\n]*)\r\n:", window)
+        if match is None:
+            return None
+        self._drop(len(self._buffer))
+        self._add_text(window[: match.start()])
+        self._add_text(window[match.end() :])
+        return Answer(Kind.ACCEPTED, text=match.group(1).strip())
+
+    # ---------------------------------------------------------------- pieces
+
+    def _owe_one(self) -> None:
+        """The prompt of a frame follows it; it is taken as soon as it is there."""
+        if self._buffer[:1] == b":":
+            self._drop(1)
+        else:
+            self._owed += 1
+
+    def _window(self, end: int) -> str:
+        """What came before `end`, without marked characters and without the echo of the line sent."""
+        plain = bytes(b for b, marked in zip(self._buffer[:end], self._marked[:end], strict=True) if not marked)
+        text = plain.decode("ascii")
+        if self._echoes and text.startswith(self._echoes[-1]):
+            text = text[len(self._echoes[-1]) :].removeprefix("\r\n")
+        return text
+
+    def _drop(self, count: int) -> None:
+        del self._buffer[:count]
+        del self._marked[:count]
+
+    def _release(self, count: int) -> None:
+        """The first bytes of the buffer are unsolicited text."""
+        if count:
+            text = bytes(self._buffer[:count]).decode("ascii")
+            self._drop(count)
+            self._add_text(text)
+
+    def _add_text(self, text: str) -> None:
+        self._text += text
+        while "\n" in self._text:
+            line, self._text = self._text.split("\n", 1)
+            line = self._unprompted(line.rstrip("\r"), take=True)
+            echo = next((echo for echo in self._echoes if line.endswith(echo)), "")
+            if not echo or line != echo:
+                self._lines.append(line.removesuffix(echo))
+
+    def _unprompted(self, line: str, take: bool) -> str:
+        owed = self._owed
+        while owed and line.startswith(":"):
+            line, owed = line[1:], owed - 1
+        if take:
+            self._owed = owed
+        return line
+
+
+def _without_prompts(window: str, prompts: int) -> tuple[str, bool]:
+    """The data lines of an accepted line's answer, and whether nothing else was in it."""
+    exact = re.fullmatch("(?:((?:[^\r\n:?]*\r\n)*):)" * prompts, window) if prompts < 40 else None
+    if exact is not None:
+        data = "".join(group for group in exact.groups() if group)
+        return data.replace("\r\n", "\n").rstrip("\n"), True
+    for _ in range(prompts):
+        place = window.rfind("\n:")
+        if place >= 0:
+            window = window[: place + 1] + window[place + 2 :]
+        else:
+            window = window.replace(":", "", 1)
+    return window.replace("\r\n", "\n").rstrip("\n"), False
