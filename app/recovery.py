@@ -1,0 +1,97 @@
+"""Copies of unsaved work, and finding them again after a crash."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import QLockFile
+
+from codegen.document import Document
+from codegen.files import FileUnreadable, dumps, loads
+
+SUFFIX = ".recovery"
+
+
+@dataclass(frozen=True)
+class Recovered:
+    """Work that a session left behind without saving or closing."""
+
+    file: Path
+    original: str  # path of the program it belongs to; "" for one never saved
+    when: datetime
+    document: Document
+
+
+class Recovery:
+    """The recovery file of this session; its lock tells other sessions that we are alive."""
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self.folder = folder
+        self.file, self.lock = _free(folder)
+
+    def write(self, document: Document, original: Path | None, now: datetime) -> None:
+        """Keeps `document`; the former copy stays until the new one is complete on disk."""
+        kept = {"original": str(original or ""), "when": now.isoformat(), "document": dumps(document)}
+        write_whole(self.file, json.dumps(kept))
+
+    def clear(self) -> None:
+        """Nothing is unsaved."""
+        self.file.unlink(missing_ok=True)
+
+    def close(self) -> None:
+        """The session ends in good order."""
+        self.clear()
+        self.lock.unlock()
+
+    def found(self) -> tuple[Recovered, ...]:
+        """What crashed sessions left, newest first."""
+        return tuple(sorted(self._left_behind(), key=lambda each: each.when, reverse=True))
+
+    def forget(self, recovered: Recovered) -> None:
+        """Removes one of them."""
+        recovered.file.unlink(missing_ok=True)
+
+    def _left_behind(self) -> Iterator[Recovered]:
+        for file in sorted(self.folder.glob(f"*{SUFFIX}")):
+            lock = _lock(file)
+            if file == self.file or not lock.tryLock(0):
+                continue
+            lock.unlock()
+            try:
+                kept = json.loads(file.read_text(encoding="utf-8"))
+                when = datetime.fromisoformat(kept["when"])
+                yield Recovered(file, kept["original"], when, loads(kept["document"]))
+            except (OSError, ValueError, KeyError, TypeError, FileUnreadable):
+                continue  # half a file of a crash while writing: the one before it was already replaced
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Writes a file so that after a crash it is either the old one or the new one."""
+    beside = path.with_name(path.name + ".part")
+    with beside.open("w", encoding="utf-8", newline="\n") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    beside.replace(path)
+
+
+def _free(folder: Path) -> tuple[Path, QLockFile]:
+    number = 1
+    while True:
+        file = folder / f"unsaved-{number}{SUFFIX}"
+        lock = _lock(file)
+        if not file.exists() and lock.tryLock(0):
+            return file, lock
+        number += 1
+
+
+def _lock(file: Path) -> QLockFile:
+    lock = QLockFile(str(file) + ".lock")
+    lock.setStaleLockTime(0)
+    return lock

@@ -1,0 +1,449 @@
+"""The open program: its document, its history, its file; every change goes through here."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import hashlib
+import time
+from collections.abc import Callable, Collection, Sequence
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+
+from app.recovery import Recovered, Recovery
+from codegen import files
+from codegen.document import Document
+from codegen.generate import Listing, generate
+from codegen.history import History
+from codegen.instructions import Instruction
+from codegen.program import (
+    Place,
+    Program,
+    Section,
+    Step,
+    find,
+    fresh,
+    insert,
+    move,
+    place_for,
+    place_of,
+    remove,
+    renewed,
+    replace,
+    section_of,
+)
+from codegen.setup import Setup
+
+AUTOSAVE_MS = 1000
+
+
+class NoPath(Exception):
+    """The program has never been saved: it needs a name first."""
+
+
+class ChangedOnDisk(Exception):
+    """Somebody else wrote the file since it was opened; saving would overwrite that."""
+
+
+class Session(QObject):
+    """Owns the document; says what changed, keeps the unsaved work safe, never overwrites in silence."""
+
+    document_changed = Signal(object, object)  # old Document, new Document
+    history_changed = Signal()
+    insertion_changed = Signal()
+    changed_on_disk = Signal(str)
+    autosave_failed = Signal(str)
+
+    def __init__(
+        self,
+        document: Document | None = None,
+        *,
+        recovery_folder: Path | None = None,
+        clock: Callable[[], float] = time.monotonic,
+        now: Callable[[], datetime] = datetime.now,
+        autosave_ms: int = AUTOSAVE_MS,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._clock, self._now = clock, now
+        self.history = History(document if document is not None else Document())
+        self._saved: Document = self.document
+        self.path: Path | None = None
+        self._fingerprint = ""
+        self._listing: tuple[Document, Listing] | None = None
+        self.open_body: str | None = None  # the repeat that new steps go into
+        self.before: str | None = None  # the step that new steps go in front of
+        self._recovery = Recovery(recovery_folder) if recovery_folder is not None else None
+        self._autosave = QTimer(self, singleShot=True, interval=autosave_ms)
+        self._autosave.timeout.connect(self.autosave_now)
+        self._watcher = QFileSystemWatcher(self)
+        self._watcher.fileChanged.connect(self._file_changed)
+
+    # ---- what is open
+
+    @property
+    def document(self) -> Document:
+        return self.history.present
+
+    @property
+    def listing(self) -> Listing:
+        """The code of the document; made once for each document."""
+        if self._listing is None or self._listing[0] is not self.document:
+            self._listing = (self.document, generate(self.document))
+        return self._listing[1]
+
+    @property
+    def dirty(self) -> bool:
+        """Whether there is anything that the file does not have."""
+        return self.document is not self._saved and self.document != self._saved
+
+    @property
+    def title(self) -> str:
+        """For the window: the file's name, with a star while there are unsaved changes."""
+        name = self.path.name if self.path is not None else self.document.program.name or "New program"
+        return f"{name}*" if self.dirty else name
+
+    # ---- editing
+
+    def insert(
+        self, instructions: Sequence[Instruction], before: str | None = None, section: Section | None = None
+    ) -> tuple[str, ...]:
+        """Adds new steps where new steps go, or in front of a step; gives their ids."""
+        program = self.document.program
+        ids: list[str] = []
+        at: Place | None = None
+        for instruction in instructions:
+            step = fresh(program, instruction)
+            at = Place(at.parent, at.index + 1) if at is not None else self.next_place(instruction, before, section)
+            program = insert(program, [step], at)
+            ids.append(step.id)
+        self._push_program(program, "Add " + _titles(instructions))
+        self._follow_insertion(ids)
+        return tuple(ids)
+
+    def insert_at(self, instruction: Instruction, place: Place) -> str:
+        """Adds one new step at a place of the tree."""
+        step = fresh(self.document.program, instruction)
+        self._push_program(insert(self.document.program, [step], place), f"Add {instruction.title}")
+        self._follow_insertion([step.id])
+        return step.id
+
+    def replace(self, step_id: str, instruction: Instruction, key: str | None = None) -> None:
+        """Gives a step another instruction; changes with the same key shortly after another are undone as one."""
+        step = find(self.document.program, step_id)
+        if step.instruction != instruction:
+            new = replace(self.document.program, dc.replace(step, instruction=instruction))
+            self._push_program(new, f"Change {instruction.title}", key)
+
+    def set_note(self, step_id: str, note: str) -> None:
+        """The person's own comment on a step."""
+        step = find(self.document.program, step_id)
+        self._push_program(
+            replace(self.document.program, dc.replace(step, note=note)), "Change note", f"note {step_id}"
+        )
+
+    def remove(self, ids: Collection[str]) -> None:
+        """Takes steps out, with everything inside them."""
+        if ids:
+            label = f"Delete {self._words_for(ids)}"
+            self._push_program(remove(self.document.program, ids), label)
+
+    def move(self, ids: Collection[str], place: Place) -> None:
+        """Puts steps elsewhere, also into and out of repeats; `place` is counted before the move."""
+        self._push_program(move(self.document.program, ids, place), f"Move {self._words_for(ids)}")
+
+    def comment_out(self, ids: Sequence[str]) -> None:
+        """Steps that emit nothing for the time being; when all of them are already, brings them back."""
+        steps = [find(self.document.program, name) for name in ids]
+        on = not any(step.enabled for step in steps)
+        program = self.document.program
+        for step in steps:
+            if step.enabled != on:
+                program = replace(program, dc.replace(find(program, step.id), enabled=on))
+        self._push_program(program, f"{'Bring back' if on else 'Comment out'} {self._words_for(ids)}")
+
+    def copy(self, ids: Sequence[str]) -> str:
+        """Steps as text for the clipboard."""
+        return files.steps_to_text([find(self.document.program, name) for name in ids])
+
+    def paste(self, text: str, before: str | None = None, place: Place | None = None) -> tuple[str, ...]:
+        """Adds steps from text, with ids of their own; raises FileUnreadable when it holds none."""
+        program = self.document.program
+        steps = renewed(program, files.steps_from_text(text))
+        if not steps:
+            return ()
+        at = place or self.next_place(steps[0].instruction, before, None)
+        self._push_program(insert(program, steps, at), f"Paste {_count(len(steps))}")
+        return tuple(step.id for step in steps)
+
+    def set_program(self, *, name: str | None = None, description: str | None = None) -> None:
+        """Name and description."""
+        program = self.document.program
+        new = dc.replace(
+            program,
+            name=program.name if name is None else name,
+            description=program.description if description is None else description,
+        )
+        self._push_program(new, "Rename program" if name is not None else "Change description", "title")
+
+    def set_setup(self, setup: Setup, label: str = "Change setup") -> None:
+        """The machine's configuration."""
+        self.set_document(dc.replace(self.document, setup=setup), label)
+
+    def set_document(self, document: Document, label: str, key: str | None = None) -> None:
+        """Any other change, as one step of the history."""
+        if document is not self.document and document != self.document:
+            old = self.document
+            self.history = self.history.push(document, label, key=key, now=self._clock())
+            self._changed(old)
+
+    # ---- where new steps go
+
+    def next_place(self, instruction: Instruction, before: str | None = None, section: Section | None = None) -> Place:
+        """Where a new step goes: before the chosen one, into the open repeat, or after the last of its section."""
+        program = self.document.program
+        ahead = before if before is not None else self.before
+        if ahead is None and self.open_body is not None and section != Section.CONFIGURATION:
+            place = Place(self.open_body, len(find(program, self.open_body).body))
+            if not _refusal(program, instruction, place):
+                return place
+        return place_for(program, instruction, ahead, section)
+
+    def refusal(self, steps: Sequence[Step], place: Place) -> str:
+        """Why steps cannot stand at a place of the tree; empty when they can."""
+        return next(
+            (reason for step in steps if (reason := _refusal(self.document.program, step.instruction, place))), ""
+        )
+
+    def insert_before(self, step_id: str | None) -> None:
+        """New steps go in front of this one; None: back to the end."""
+        self.before = step_id
+        self.insertion_changed.emit()
+
+    def leave_body(self) -> None:
+        """New steps go behind the open repeat again."""
+        if self.open_body is None:
+            return
+        parent = place_of(self.document.program, self.open_body).parent
+        self.open_body = parent if _is_repeat(self.document.program, parent) else None
+        self.insertion_changed.emit()
+
+    def _follow_insertion(self, ids: Sequence[str]) -> None:
+        last = find(self.document.program, ids[-1])
+        if _holds(last):
+            self.open_body, self.before = last.id, None
+        self.insertion_changed.emit()
+
+    # ---- history
+
+    @property
+    def can_undo(self) -> bool:
+        return self.history.can_undo
+
+    @property
+    def can_redo(self) -> bool:
+        return self.history.can_redo
+
+    @property
+    def undo_text(self) -> str:
+        return self.history.undo_label if self.can_undo else ""
+
+    @property
+    def redo_text(self) -> str:
+        return self.history.redo_label if self.can_redo else ""
+
+    def undo(self) -> None:
+        """Takes the last change back."""
+        if self.can_undo:
+            self._travel(self.history.undo())
+
+    def redo(self) -> None:
+        """Makes the change again that was taken back."""
+        if self.can_redo:
+            self._travel(self.history.redo())
+
+    # ---- file
+
+    def new(self, setup: Setup | None = None) -> None:
+        """An empty program for the same machine."""
+        document = Document(setup=setup or self.document.setup)
+        self._start(document, None, saved=True)
+
+    def open(self, path: Path) -> None:
+        """Opens a program; raises FileUnreadable and leaves everything as it was."""
+        document = files.load(path)
+        self._start(document, path, saved=True)
+
+    def save(self, *, overwrite: bool = False) -> None:
+        """Writes the file; refuses when it has never been named, or when somebody else has changed it."""
+        if self.path is None:
+            raise NoPath("The program has no file yet")
+        if not overwrite and self.path.exists() and _fingerprint(self.path) != self._fingerprint:
+            raise ChangedOnDisk(f"{self.path.name} was changed by another program since it was opened")
+        self._write(self.path)
+
+    def save_as(self, path: Path, *, overwrite: bool = False) -> None:
+        """Writes another file; one that is there is only replaced when asked to."""
+        if path.exists() and not overwrite:
+            raise FileExistsError(f"{path.name} is there already")
+        self._write(path)
+
+    def revert(self) -> None:
+        """Takes the file as it is on disk; the present state stays in the history."""
+        if self.path is not None:
+            document = files.load(self.path)
+            self.set_document(document, f"Reload {self.path.name}")
+            self._saved, self._fingerprint = self.document, _fingerprint(self.path)
+            self._after_save()
+
+    # ---- unsaved work
+
+    def recoverable(self) -> tuple[Recovered, ...]:
+        """What crashed sessions left behind, newest first."""
+        return self._recovery.found() if self._recovery is not None else ()
+
+    def recover(self, recovered: Recovered) -> None:
+        """Opens what was left behind; it stays unsaved, under its old name."""
+        original = Path(recovered.original) if recovered.original else None
+        self._start(recovered.document, original, saved=False)
+        self.autosave_now()
+        self.forget(recovered)
+
+    def forget(self, recovered: Recovered) -> None:
+        """Removes what was left behind."""
+        if self._recovery is not None:
+            self._recovery.forget(recovered)
+
+    def autosave_now(self) -> None:
+        """Writes the recovery copy now."""
+        self._autosave.stop()
+        if self._recovery is None:
+            return
+        try:
+            if self.dirty:
+                self._recovery.write(self.document, self.path, self._now())
+            else:
+                self._recovery.clear()
+        except OSError as failure:
+            self.autosave_failed.emit(f"Unsaved work cannot be kept safe: {failure.strerror or failure}")
+
+    def close(self) -> None:
+        """The session ends in good order: no recovery copy stays behind."""
+        self._autosave.stop()
+        if self._recovery is not None:
+            self._recovery.close()
+
+    # ---- inside
+
+    def _push_program(self, program: Program, label: str, key: str | None = None) -> None:
+        if program is not self.document.program:
+            self.set_document(dc.replace(self.document, program=program), label, key)
+
+    def _travel(self, history: History) -> None:
+        old, self.history = self.document, history
+        self._changed(old)
+
+    def _changed(self, old: Document) -> None:
+        self._keep_insertion_valid()
+        self.document_changed.emit(old, self.document)
+        self.history_changed.emit()
+        if not self._autosave.isActive():
+            self._autosave.start()
+
+    def _keep_insertion_valid(self) -> None:
+        program = self.document.program
+        before = (self.open_body, self.before)
+        self.open_body = self.open_body if _is_there(program, self.open_body) else None
+        self.before = self.before if _is_there(program, self.before) else None
+        if before != (self.open_body, self.before):
+            self.insertion_changed.emit()
+
+    def _start(self, document: Document, path: Path | None, *, saved: bool) -> None:
+        old = self.document
+        self.history = History(document)
+        self.path = path
+        self._fingerprint = _fingerprint(path) if path is not None and path.exists() else ""
+        self._saved = document if saved else Document()
+        self.open_body = self.before = None
+        self._watch()
+        self.document_changed.emit(old, document)
+        self.insertion_changed.emit()
+        self._after_save()
+
+    def _write(self, path: Path) -> None:
+        self._unwatch()
+        files.save(path, self.document)
+        self.path, self._saved, self._fingerprint = path, self.document, _fingerprint(path)
+        self._watch()
+        self._after_save()
+
+    def _after_save(self) -> None:
+        self.autosave_now()
+        self.history_changed.emit()
+
+    def _watch(self) -> None:
+        self._unwatch()
+        if self.path is not None and self.path.exists():
+            self._watcher.addPath(str(self.path))
+
+    def _unwatch(self) -> None:
+        if self._watcher.files():
+            self._watcher.removePaths(self._watcher.files())
+
+    def _file_changed(self, name: str) -> None:
+        if self.path is None or Path(name) != self.path:
+            return
+        if not self.path.exists():
+            self._fingerprint = ""
+            self.changed_on_disk.emit(name)
+        elif _fingerprint(self.path) != self._fingerprint:
+            self.changed_on_disk.emit(name)
+        self._watch()
+
+    def _words_for(self, ids: Collection[str]) -> str:
+        names = list(ids)
+        return find(self.document.program, names[0]).instruction.title if len(names) == 1 else _count(len(names))
+
+
+def _titles(instructions: Sequence[Instruction]) -> str:
+    return instructions[0].title if len(instructions) == 1 else _count(len(instructions))
+
+
+def _count(number: int) -> str:
+    return f"{number} step" if number == 1 else f"{number} steps"
+
+
+def _is_there(program: Program, name: str | None) -> bool:
+    return name is not None and any(step.id == name for step in program.steps())
+
+
+def _is_repeat(program: Program, name: str) -> bool:
+    return any(step.id == name and _holds(step) for step in program.steps())
+
+
+def _holds(step: Step) -> bool:
+    """Whether new steps go into it until the user leaves it (a subroutine is closed by its End)."""
+    return step.instruction.container and step.instruction.section != "S"
+
+
+def _refusal(program: Program, instruction: Instruction, place: Place) -> str:
+    """Why an instruction cannot stand there: configuration, main and subroutines each take their own."""
+    title, wanted = instruction.title, instruction.section
+    if wanted == "S":
+        return "" if place.parent == Section.ROUTINES else f"{title} belongs to Subroutines"
+    if place.parent == Section.ROUTINES:
+        return f"{title} belongs inside a subroutine: drop it on one"
+    if _in_configuration(program, place):
+        return "" if "C" in wanted else f"{title} belongs to Main or into a subroutine"
+    return "" if "M" in wanted else f"{title} belongs to Configuration"
+
+
+def _in_configuration(program: Program, place: Place) -> bool:
+    return (
+        place.parent if place.parent in tuple(Section) else section_of(program, place.parent)
+    ) == Section.CONFIGURATION
+
+
+def _fingerprint(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -1,0 +1,94 @@
+"""One field on the form: its editor, its unit, what will be sent, and what is wrong with it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QApplication, QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+
+class Cell(QWidget):
+    """An editor with its unit, its counts in a quiet tone and its problem; `wide` puts them in one line."""
+
+    changed = Signal(object)
+
+    def __init__(
+        self, editor: QWidget, name: str, help_text: str, *, wide: bool, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.editor: Any = editor
+        self.unit = QLabel()
+        self.counts = QLabel()
+        self.counts.setProperty("role", "quiet")
+        self.problem = QLabel()
+        self.problem.setProperty("role", "warning")
+        self.problem.setWordWrap(True)
+        self.problem.setMinimumWidth(120)
+        name_focusable(editor, name, help_text)
+        top = QHBoxLayout()
+        top.setContentsMargins(0, 0, 0, 0)
+        top.setSpacing(8)
+        policy = editor.sizePolicy().horizontalPolicy()
+        stretches = policy == QSizePolicy.Policy.Expanding and editor.maximumWidth() > editor.minimumWidth()
+        top.addWidget(editor, 1 if stretches else 0)
+        top.addWidget(self.unit)
+        if wide:
+            top.addWidget(self.counts)
+        if not stretches:
+            top.addStretch(1)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(2)
+        whole.addLayout(top)
+        if not wide:
+            whole.addWidget(self.counts)
+        whole.addWidget(self.problem)
+        self.problem.hide()
+        self.editor.changed.connect(self.changed)
+        self._name = name
+
+    def show_facts(self, unit: str, counts: str, warning: str | None, problem: str | None) -> None:
+        """Shows unit and counts, and the problem sentence instead of the counts while there is one."""
+        _say(self.unit, unit)
+        _say(self.counts, "" if problem else counts)
+        _say(self.problem, f"! {problem}" if problem else f"△ {warning}" if warning else "")
+        spoken = ". ".join(part for part in (unit, counts, warning or "", problem or "") if part)
+        target = self.editor.focusProxy() or self.editor
+        if target.accessibleDescription() != spoken:
+            target.setAccessibleDescription(spoken)
+
+
+def _say(label: QLabel, text: str) -> None:
+    if label.text() != text:
+        label.setText(text)
+    label.setVisible(bool(text))
+
+
+def name_focusable(editor: QWidget, name: str, help_text: str) -> None:
+    """Gives every part of an editor that takes the focus a name, and the field's help as tool tip."""
+    parts = [editor, *editor.findChildren(QWidget)]
+    for part in parts:
+        if part.focusPolicy() == Qt.FocusPolicy.NoFocus and part is not editor:
+            continue
+        text = getattr(part, "text", None)
+        own = text() if callable(text) and part.property("role") == "segment" else ""
+        if not part.accessibleName():
+            part.setAccessibleName(f"{name}: {own}" if own else name)
+        if help_text and not part.toolTip():
+            part.setToolTip(help_text)
+
+
+def focus_in(widget: QWidget) -> None:
+    """Puts the cursor into an editor and selects what stands there."""
+    target = widget.focusProxy() or widget
+    target.setFocus(Qt.FocusReason.TabFocusReason)
+    line = target.lineEdit() if isinstance(target, QComboBox) else target
+    if line is not None and hasattr(line, "selectAll"):
+        line.selectAll()
+
+
+def focused_inside(widget: QWidget) -> bool:
+    """Whether the focus is somewhere in `widget`."""
+    focus = QApplication.focusWidget()
+    return focus is not None and (focus is widget or widget.isAncestorOf(focus))

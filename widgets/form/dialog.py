@@ -1,0 +1,173 @@
+"""The dialog of an instruction: add a new one or change one; never modal, so STOP and all windows stay alive."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QDialog,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from codegen.instructions import Instruction
+from widgets.form.editors import Buttons
+from widgets.form.form import InstructionForm
+from widgets.form.offers import Offers
+from widgets.parts.look import look
+
+SECTION_WORDS = {"configuration": "Configuration", "main": "Main"}
+
+
+class SectionButtons(Buttons):
+    """Where an instruction goes that may stand in both sections."""
+
+    def __init__(self) -> None:
+        super().__init__(list(SECTION_WORDS.items()), several=False)
+
+    def _say(self) -> None:
+        self.changed.emit(self.chosen()[0])
+
+
+class InstructionDialog(QDialog):
+    """Add / Add and next / Cancel / Help for a new step; Change / Cancel / Help for one that is there."""
+
+    added = Signal(object, str, bool)  # instruction, section ("" = its own), whether the dialog stays open
+    changed = Signal(object)
+    help_requested = Signal(str)
+
+    def __init__(
+        self, instruction: Instruction, offers: Offers, *, new: bool, where: str = "", parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.new = new
+        self.setModal(False)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(instruction.title if new else f"Change: {instruction.title}")
+        self.setProperty("helpPage", instruction.title)
+        self.form = InstructionForm(offers)
+        self.section = SectionButtons()
+        self.section.choose(["main"])
+        self.buttons = self._buttons()
+        self._lay_out(instruction, where)
+        self.form.edited.connect(lambda _: self._refresh())
+        self.form.show_instruction(instruction)
+        self._refresh()
+        QShortcut(QKeySequence("Ctrl+Return"), self, activated=self._accept)
+        self.form.fields.focus_first()
+
+    # ---- looks
+
+    def _lay_out(self, instruction: Instruction, where: str) -> None:
+        bar = QFrame()
+        bar.setFixedWidth(4)
+        bar.setAutoFillBackground(True)
+        palette = bar.palette()
+        palette.setColor(bar.backgroundRole(), look().group(str(instruction.group)))
+        bar.setPalette(palette)
+        title = QLabel(instruction.title)
+        title.setProperty("role", "title")
+        self.place = QLabel(where)
+        self.place.setProperty("role", "quiet")
+        about = QLabel(_first_sentence(instruction.help))
+        about.setProperty("role", "quiet")
+        about.setWordWrap(True)
+        words = QVBoxLayout()
+        words.setSpacing(2)
+        top = QHBoxLayout()
+        top.addWidget(title)
+        top.addStretch(1)
+        top.addWidget(self.place)
+        words.addLayout(top)
+        words.addWidget(about)
+        heading = QHBoxLayout()
+        heading.setSpacing(12)
+        heading.addWidget(bar)
+        heading.addLayout(words, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(16, 16, 16, 16)
+        column.setSpacing(12)
+        column.addLayout(heading)
+        if self.new and instruction.section == "C/M":
+            column.addLayout(self._section_row())
+        column.addWidget(self.form, 1)
+        column.addLayout(self._button_row())
+        self.setMinimumWidth(520)
+
+    def _section_row(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        label = QLabel("Goes to")
+        row.addWidget(label)
+        row.addWidget(self.section)
+        row.addStretch(1)
+        for button in self.section.buttons.values():
+            button.setAccessibleName(f"Goes to: {button.text()}")
+        return row
+
+    def _buttons(self) -> dict[str, QPushButton]:
+        names = ("Add", "Add and next", "Cancel", "Help") if self.new else ("Change", "Cancel", "Help")
+        buttons = {name: QPushButton(name) for name in names}
+        for button in buttons.values():
+            button.setMinimumHeight(look().control)
+            button.setAutoDefault(False)
+        main = buttons[names[0]]
+        main.setProperty("role", "primary")
+        main.setDefault(True)
+        main.clicked.connect(self._accept)
+        if self.new:
+            buttons["Add and next"].clicked.connect(lambda: self._add(True))
+        buttons["Cancel"].clicked.connect(self.reject)
+        buttons["Help"].clicked.connect(lambda: self.help_requested.emit(self.form.instruction.title))
+        return buttons
+
+    def _button_row(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.buttons["Help"])
+        row.addStretch(1)
+        for name, button in self.buttons.items():
+            if name != "Help":
+                row.addWidget(button)
+        return row
+
+    # ---- what happens
+
+    def show_offers(self, offers: Offers) -> None:
+        """Follows the document: other units, other names."""
+        self.form.offers = offers
+        self.form.fields.offers = offers
+
+    def _refresh(self) -> None:
+        problem = self.form.problem()
+        for name in ("Add", "Add and next", "Change"):
+            if name in self.buttons:
+                self.buttons[name].setEnabled(not problem)
+                self.buttons[name].setToolTip(problem or "Ctrl+Enter")
+                self.buttons[name].setAccessibleDescription(problem)
+
+    def _accept(self) -> None:
+        if self.form.problem():
+            self.form.fields.focus_first()
+        elif self.new:
+            self._add(False)
+        else:
+            self.changed.emit(self.form.instruction)
+            self.accept()
+
+    def _add(self, stay: bool) -> None:
+        section = self.section.chosen()[0] if self.form.instruction.section == "C/M" else ""
+        self.added.emit(self.form.instruction, section, stay)
+        if stay:
+            self.form.fields.focus_first()
+        else:
+            self.accept()
+
+
+def _first_sentence(text: str) -> str:
+    line = " ".join(text.split("\n\n")[0].split())
+    end = line.find(". ")
+    return line if end < 0 else line[: end + 1]

@@ -1,0 +1,363 @@
+"""One editor for each kind of field; every editor has three names: `changed`, `value`, `setValue`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+from PySide6.QtCore import Qt, Signal, SignalInstance
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QCheckBox,
+    QComboBox,
+    QHBoxLayout,
+    QLineEdit,
+    QPlainTextEdit,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QWidget,
+)
+
+from codegen import fields
+from widgets.form.expression_menu import ExpressionMenu
+from widgets.form.offers import Offers
+from widgets.parts.look import look
+
+LEAVE = "leave as it is"
+NUMBER_WIDTH = 144
+FREE = 16_777_215  # no limit, as Qt writes it
+
+
+class Editor(Protocol):
+    """What the form knows of an editor (it is a QWidget too)."""
+
+    changed: SignalInstance
+
+    def value(self) -> Any: ...
+    def setValue(self, value: Any) -> None: ...
+
+
+class LineEditor(QLineEdit):
+    """One line of text: numbers, expressions, names. Ctrl+Space offers functions, variables and live values."""
+
+    changed = Signal(object)
+
+    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.field = field
+        self.offers = offers
+        self.setMinimumHeight(look().control)
+        if isinstance(field, fields.Text):
+            self.setMinimumWidth(NUMBER_WIDTH)
+        else:
+            self.setFixedWidth(NUMBER_WIDTH)
+        self.textEdited.connect(lambda text: self.changed.emit(text))
+        self.builds = not getattr(field, "literal", False) and not isinstance(field, fields.Text | fields.LabelName)
+
+    def value(self) -> str:
+        return self.text()
+
+    def setValue(self, value: Any) -> None:
+        if value != self.text():
+            self.setText(value)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Ctrl+Space opens the expression menu."""
+        if event.key() == Qt.Key.Key_Space and event.modifiers() == Qt.KeyboardModifier.ControlModifier and self.builds:
+            self.build()
+            return
+        super().keyPressEvent(event)
+
+    def build(self) -> None:
+        """Offers what an expression is made of; the choice is put in at the cursor."""
+        menu = ExpressionMenu(self.offers, self)
+        menu.chosen.connect(self._put_in)
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(self.mapToGlobal(self.rect().bottomLeft()))
+
+    def _put_in(self, text: str, back: int) -> None:
+        self.insert(text)
+        self.setCursorPosition(self.cursorPosition() - back)
+        self.setFocus()
+        self.changed.emit(self.text())
+
+
+class ExpressionEditor(QWidget):
+    """A line with a button beside it that offers what expressions are made of."""
+
+    changed = Signal(object)
+
+    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.line = LineEditor(field, offers)
+        self.line.setMinimumWidth(220)
+        self.line.setMaximumWidth(FREE)
+        self.line.setFont(look().code_font())
+        button = QToolButton()
+        button.setText("ƒ(x)")
+        button.setMinimumSize(look().control + 16, look().control)
+        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        button.setToolTip("Functions, operators, variables and live values (Ctrl+Space)")
+        button.setAccessibleName("Build an expression")
+        button.clicked.connect(self.line.build)
+        _row(self, self.line, button)
+        self.line.changed.connect(self.changed)
+        self.setFocusProxy(self.line)
+
+    def value(self) -> str:
+        return self.line.value()
+
+    def setValue(self, value: Any) -> None:
+        self.line.setValue(value)
+
+
+class TextArea(QPlainTextEdit):
+    """Several lines of text or code."""
+
+    changed = Signal(object)
+
+    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTabChangesFocus(True)
+        self.setMinimumHeight(look().control * 3)
+        self.setMaximumHeight(look().control * 5)
+        self.setMinimumWidth(320)
+        if isinstance(field, fields.Code):
+            self.setFont(look().code_font())
+        self.textChanged.connect(lambda: self.changed.emit(self.toPlainText()))
+
+    def value(self) -> str:
+        return self.toPlainText()
+
+    def setValue(self, value: Any) -> None:
+        if value != self.toPlainText():
+            self.blockSignals(True)
+            self.setPlainText(value)
+            self.blockSignals(False)
+
+
+class Buttons(QWidget):
+    """A few words side by side; one of them (or, with `several`, any of them) is on."""
+
+    changed = Signal(object)
+
+    def __init__(self, choices: Sequence[tuple[Any, str]], *, several: bool, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.group = QButtonGroup(self)
+        self.group.setExclusive(not several)
+        self.buttons: dict[Any, QPushButton] = {}
+        for key, words in choices:
+            button = QPushButton(words)
+            button.setCheckable(True)
+            button.setMinimumHeight(look().control)
+            button.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+            button.setProperty("role", "segment")
+            button.setAutoDefault(False)
+            self.group.addButton(button)
+            self.buttons[key] = button
+            button.toggled.connect(self._toggled)
+        _row(self, *self.buttons.values(), space=4).addStretch(1)
+        if self.buttons:
+            self.setFocusProxy(next(iter(self.buttons.values())))
+
+    def chosen(self) -> list[Any]:
+        """The words that are on, in order."""
+        return [key for key, button in self.buttons.items() if button.isChecked()]
+
+    def choose(self, keys: Sequence[Any]) -> None:
+        """Switches exactly these on, without saying so."""
+        exclusive = self.group.exclusive()
+        self.group.setExclusive(False)
+        for key, button in self.buttons.items():
+            button.blockSignals(True)
+            button.setChecked(key in keys)
+            button.blockSignals(False)
+        self.group.setExclusive(exclusive)
+        if exclusive and keys and keys[0] in self.buttons:
+            self.setFocusProxy(self.buttons[keys[0]])
+
+    def _toggled(self, on: bool) -> None:
+        if on or not self.group.exclusive():
+            self._say()
+
+    def _say(self) -> None:
+        raise NotImplementedError
+
+
+class ChoiceButtons(Buttons):
+    """One of up to three short choices."""
+
+    def __init__(self, field: fields.Choice, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__([(key, words_of(field, key)) for key in field.kind], several=False, parent=parent)
+
+    def value(self) -> Any:
+        return next(iter(self.chosen()), None)
+
+    def setValue(self, value: Any) -> None:
+        self.choose([value])
+
+    def _say(self) -> None:
+        self.changed.emit(self.value())
+
+
+class AxisNameEditor(Buttons):
+    """One axis letter."""
+
+    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__([(letter, letter) for letter in offers.setup.letters], several=False, parent=parent)
+
+    def value(self) -> str:
+        return "".join(self.chosen())
+
+    def setValue(self, value: Any) -> None:
+        self.choose(list(value))
+
+    def _say(self) -> None:
+        self.changed.emit(self.value())
+
+
+class AxisSetEditor(Buttons):
+    """Any axes of the controller."""
+
+    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__([(letter, letter) for letter in offers.setup.letters], several=True, parent=parent)
+
+    def value(self) -> str:
+        return "".join(self.chosen())
+
+    def setValue(self, value: Any) -> None:
+        self.choose(list(value))
+
+    def _say(self) -> None:
+        self.changed.emit(self.value())
+
+
+class ComboEditor(QComboBox):
+    """One of many choices, or of none: `leave as it is` where a value may be empty."""
+
+    changed = Signal(object)
+
+    def __init__(self, choices: Sequence[tuple[Any, str]], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setMinimumHeight(look().control)
+        self.keys = [key for key, _ in choices]
+        self.addItems([words for _, words in choices])
+        self.activated.connect(lambda _: self.changed.emit(self.value()))
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+
+    def value(self) -> Any:
+        return self.keys[max(0, self.currentIndex())]
+
+    def setValue(self, value: Any) -> None:
+        self.setCurrentIndex(self.keys.index(value) if value in self.keys else -1)
+
+
+class NameEditor(QComboBox):
+    """A name to type, or to pick from those there are already."""
+
+    changed = Signal(object)
+
+    def __init__(self, names: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setEditable(True)
+        self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        self.setMinimumHeight(look().control)
+        self.setMinimumWidth(160)
+        self.addItems(list(names))
+        self.setCurrentIndex(-1)
+        self.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
+        self.editTextChanged.connect(lambda text: self.changed.emit(text))
+
+    def value(self) -> str:
+        return self.currentText()
+
+    def setValue(self, value: Any) -> None:
+        if value != self.currentText():
+            self.blockSignals(True)
+            self.setEditText(value)
+            self.blockSignals(False)
+
+
+class FlagEditor(QCheckBox):
+    """Yes or no; carries its own words."""
+
+    changed = Signal(object)
+
+    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__(field.label, parent)
+        self.setMinimumHeight(look().control)
+        self.toggled.connect(lambda on: self.changed.emit(on))
+
+    def value(self) -> bool:
+        return self.isChecked()
+
+    def setValue(self, value: Any) -> None:
+        self.blockSignals(True)
+        self.setChecked(bool(value))
+        self.blockSignals(False)
+
+
+def words_of(field: fields.Choice, key: Any) -> str:
+    """How a choice reads on a button."""
+    words = field.words.get(key, str(key))
+    return words[:1].upper() + words[1:]
+
+
+def _row(owner: QWidget, *widgets: QWidget, space: int = 8) -> QHBoxLayout:
+    row = QHBoxLayout(owner)
+    row.setContentsMargins(0, 0, 0, 0)
+    row.setSpacing(space)
+    for widget in widgets:
+        row.addWidget(widget)
+    return row
+
+
+def choice(field: fields.Choice, offers: Offers) -> QWidget:
+    """Buttons for a few short choices, else a list."""
+    words = [words_of(field, key) for key in field.kind]
+    if len(words) <= 4 and sum(map(len, words)) <= 40:
+        return ChoiceButtons(field, offers)
+    return ComboEditor([(key, words_of(field, key)) for key in field.kind])
+
+
+def optional_choice(field: fields.Choice, offers: Offers) -> QWidget:
+    """A choice for one axis of several: it may be left as it is."""
+    return ComboEditor([("", LEAVE), *((str(key), words_of(field, key)) for key in field.kind)])
+
+
+def optional_flag(field: fields.Field, offers: Offers) -> QWidget:
+    """On, off, or left as it is, for one axis of several."""
+    return ComboEditor([("", LEAVE), ("on", "On"), ("off", "Off")])
+
+
+def channels(names: Sequence[str], count: int) -> list[str]:
+    """What an input or output is called: its name where it has one, else its number."""
+    return [names[number] if number < len(names) and names[number] else str(number + 1) for number in range(count)]
+
+
+def label_name(field: fields.LabelName, offers: Offers) -> QWidget:
+    """A new label is typed; one to go to is picked from those of the program."""
+    return LineEditor(field, offers) if field.defines else NameEditor(offers.labels)
+
+
+EDITORS: dict[type[fields.Field], Any] = {
+    fields.Quantity: LineEditor,
+    fields.Number: LineEditor,
+    fields.Choice: choice,
+    fields.AxisName: AxisNameEditor,
+    fields.AxisSet: AxisSetEditor,
+    fields.Flag: FlagEditor,
+    fields.ExpressionField: ExpressionEditor,
+    fields.Condition: ExpressionEditor,
+    fields.Text: lambda field, offers: (TextArea if field.lines else LineEditor)(field, offers),
+    fields.MessageText: LineEditor,
+    fields.Code: TextArea,
+    fields.LabelName: label_name,
+    fields.VariableName: lambda field, offers: NameEditor(offers.variables),
+    fields.InputNumber: lambda field, offers: NameEditor(channels(offers.setup.input_names, offers.setup.inputs)),
+    fields.OutputNumber: lambda field, offers: NameEditor(channels(offers.setup.output_names, offers.setup.outputs)),
+}
+
+AXIS_EDITORS: dict[type[fields.Field], Any] = {fields.Flag: optional_flag, fields.Choice: optional_choice}

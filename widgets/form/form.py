@@ -1,0 +1,99 @@
+"""An instruction as a form: its fields, a live picture where there is one, the sentence and the code it will add."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+
+from codegen import read
+from codegen.instructions import Instruction
+from widgets.form.fields_form import FieldsForm
+from widgets.form.offers import Offers
+from widgets.form.pictures import PICTURES
+from widgets.form.preview import Preview
+
+
+class InstructionForm(QWidget):
+    """Emits the edited instruction; `problem` says why it is not right yet."""
+
+    edited = Signal(object)
+
+    def __init__(self, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.offers = offers
+        self.fields = FieldsForm(offers)
+        self.fields.edited.connect(self._edited)
+        self.preview = Preview()
+        self.nothing = QLabel("This instruction has nothing to set.")
+        self.nothing.setProperty("role", "quiet")
+        self.picture: QWidget | None = None
+        self._beside = QHBoxLayout()
+        self._beside.setSpacing(16)
+        self._beside.addWidget(self.fields, 1)
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.addWidget(self.nothing)
+        column.addLayout(self._beside)
+        column.addStretch(1)
+        self.scroll = QScrollArea()
+        self.scroll.setWidgetResizable(True)
+        self.scroll.setFrameShape(QFrame.Shape.NoFrame)
+        self.scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
+        self.scroll.setWidget(inside)
+        self.scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._inside = inside
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(8)
+        whole.addWidget(self.scroll, 1)
+        whole.addWidget(self.preview)
+
+    @property
+    def instruction(self) -> Instruction:
+        """The instruction as it stands on the form."""
+        return self.fields.item  # type: ignore[no-any-return]
+
+    def problem(self) -> str:
+        """The first reason why the instruction is not right; empty when it is."""
+        found = read.problems(self.instruction, self.offers.setup)
+        return next((finding.message for finding in found if finding.severity == "error"), "")
+
+    def show_instruction(self, instruction: Instruction) -> None:
+        """Shows `instruction`; typing places stay where they are if it is of the same kind."""
+        other = type(instruction) is not type(self.fields.item)
+        self.fields.show_item(instruction)
+        if other:
+            self._show_picture(instruction)
+            self.nothing.setVisible(not self.fields.cells)
+            self.setProperty("helpPage", instruction.title)
+            self._fit()
+        self._refresh()
+
+    def _edited(self, instruction: Instruction) -> None:
+        self._refresh()
+        self.edited.emit(instruction)
+
+    def _refresh(self) -> None:
+        setup = self.offers.setup
+        self.preview.show_words(
+            read.sentence(self.instruction, setup), read.code(self.instruction, setup), self.problem()
+        )
+        if self.picture is not None:
+            self.picture.show_instruction(self.instruction)  # type: ignore[attr-defined]
+
+    def _show_picture(self, instruction: Instruction) -> None:
+        if self.picture is not None:
+            self.picture.deleteLater()
+            self.picture = None
+        make = PICTURES.get(type(instruction).__name__)
+        if make is not None:
+            self.picture = make(self.offers)
+            self._beside.addWidget(self.picture, 1)
+
+    def _fit(self) -> None:
+        """High enough to show all fields without scrolling, as far as the screen allows."""
+        self._inside.adjustSize()
+        wanted = self._inside.sizeHint()
+        self.scroll.setMinimumHeight(min(wanted.height() + 8, 460))
+        self.scroll.setMinimumWidth(min(wanted.width() + 24, 860))

@@ -1,0 +1,68 @@
+"""The form of the selected step in a panel of its own; every change goes straight into the program."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
+
+from codegen.instructions import Instruction
+from codegen.program import Step
+from widgets.form.form import InstructionForm
+from widgets.form.offers import Offers
+
+
+class Inspector(QWidget):
+    """Shows one step; empty, it says what to do."""
+
+    edited = Signal(str, object, str)  # step id, instruction, key under which changes join for undo
+    title = "Inspector"
+
+    def __init__(self, offers: Offers, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName("Inspector")
+        self.offers = offers
+        self.step: Step | None = None
+        self.heading = QLabel()
+        self.heading.setProperty("role", "title")
+        self.empty = QLabel("Select one step of the program to change it here.")
+        self.empty.setProperty("role", "quiet")
+        self.empty.setWordWrap(True)
+        self.form = self._new_form()
+        self.stack = QStackedWidget()
+        self.stack.addWidget(self.empty)
+        self.stack.addWidget(self.form)
+        column = QVBoxLayout(self)
+        column.addWidget(self.heading)
+        column.addWidget(self.stack, 1)
+        self.heading.hide()
+
+    def show_step(self, step: Step | None, offers: Offers) -> None:
+        """Shows `step`, or the hint when nothing (or more than one) is selected."""
+        if offers.setup != self.offers.setup:
+            self._rebuild(offers)
+        self.offers = offers
+        self.form.offers = self.form.fields.offers = offers
+        self.step = step
+        self.heading.setVisible(step is not None)
+        self.stack.setCurrentWidget(self.empty if step is None else self.form)
+        if step is not None:
+            self.heading.setText(step.instruction.title)
+            if step.instruction != self.form.fields.item or type(step.instruction) is not type(self.form.fields.item):
+                self.form.show_instruction(step.instruction)
+
+    def _edited(self, instruction: Instruction) -> None:
+        if self.step is not None:
+            self.edited.emit(self.step.id, instruction, f"inspector {self.step.id}")
+
+    def _new_form(self) -> InstructionForm:
+        form = InstructionForm(self.offers)
+        form.edited.connect(self._edited)
+        return form
+
+    def _rebuild(self, offers: Offers) -> None:
+        """Other axes or units: the form is built anew."""
+        self.offers = offers
+        old, self.form = self.form, self._new_form()
+        self.stack.addWidget(self.form)
+        self.stack.removeWidget(old)
+        old.deleteLater()

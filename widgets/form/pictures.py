@@ -1,0 +1,11 @@
+"""Live pictures for forms that describe geometry, by the name of the instruction; most have none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from PySide6.QtWidgets import QWidget
+
+from widgets.form.offers import Offers
+
+PICTURES: Mapping[str, Callable[[Offers], QWidget]] = {}

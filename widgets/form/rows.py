@@ -1,0 +1,142 @@
+"""A list inside a form: its entries in words, one of them open for editing; add, remove, move, clear."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QPushButton, QVBoxLayout, QWidget
+
+from codegen import fields, read
+from widgets.form.offers import Offers
+from widgets.parts.icons import icon
+from widgets.parts.look import look
+
+MOST_SHOWN = 6  # entries before the list scrolls
+
+
+class RowsEditor(QWidget):
+    """The value is a tuple of frozen rows; `make_form` builds the form of one row."""
+
+    changed = Signal(object)
+
+    def __init__(self, field: fields.ListOf, offers: Offers, make_form: Callable[[Offers], Any]) -> None:
+        super().__init__()
+        self.field = field
+        self.offers = offers
+        self.rows: tuple[Any, ...] = ()
+        self.list = QListWidget()
+        self.list.setAccessibleName(field.label)
+        self.list.setUniformItemSizes(True)
+        self.list.currentRowChanged.connect(self._open)
+        self.form = make_form(offers)
+        self.form.edited.connect(self._edited)
+        self.empty = QLabel(f"Nothing in the list yet: press Add for the first entry of “{field.label}”.")
+        self.empty.setProperty("role", "quiet")
+        self.empty.setWordWrap(True)
+        self.buttons = {
+            "add": self._button("Add", "add", self.add),
+            "remove": self._button("Remove", "remove", self.remove),
+            "up": self._button("Up", "up", lambda: self.shift(-1)),
+            "down": self._button("Down", "down", lambda: self.shift(1)),
+            "clear": self._button("Clear", "refresh", self.clear),
+        }
+        bar = QHBoxLayout()
+        bar.setSpacing(4)
+        for button in self.buttons.values():
+            bar.addWidget(button)
+        bar.addStretch(1)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(8)
+        for widget in (self.list, self.empty):
+            whole.addWidget(widget)
+        whole.addLayout(bar)
+        whole.addWidget(self.form)
+        self._show(-1)
+
+    def value(self) -> tuple[Any, ...]:
+        return self.rows
+
+    def setValue(self, value: Any) -> None:
+        if value != self.rows:
+            self.rows = tuple(value)
+            self._show(min(max(self.list.currentRow(), 0), len(self.rows) - 1))
+
+    # ---- what the buttons do
+
+    def add(self) -> None:
+        """A new entry behind the open one."""
+        at = self.list.currentRow() + 1 if self.rows else 0
+        self._change((*self.rows[:at], self.field.row(), *self.rows[at:]), at)
+        self.form.focus_first()
+
+    def remove(self) -> None:
+        """Takes the open entry out."""
+        at = self.list.currentRow()
+        self._change(self.rows[:at] + self.rows[at + 1 :], min(at, len(self.rows) - 2))
+
+    def shift(self, by: int) -> None:
+        """Moves the open entry up or down."""
+        at = self.list.currentRow()
+        rows = list(self.rows)
+        rows.insert(at + by, rows.pop(at))
+        self._change(tuple(rows), at + by)
+
+    def clear(self) -> None:
+        """Empties the list."""
+        self._change((), -1)
+
+    # ---- inside
+
+    def _change(self, rows: tuple[Any, ...], at: int) -> None:
+        self.rows = rows
+        self._show(at)
+        self.changed.emit(rows)
+
+    def _edited(self, row: Any) -> None:
+        at = self.list.currentRow()
+        self.rows = (*self.rows[:at], row, *self.rows[at + 1 :])
+        self.list.item(at).setText(self._words(at + 1, row))
+        self.changed.emit(self.rows)
+
+    def _show(self, at: int) -> None:
+        self.list.blockSignals(True)
+        self.list.clear()
+        for number, row in enumerate(self.rows, start=1):
+            item = QListWidgetItem(self._words(number, row))
+            item.setSizeHint(QSize(0, look().control))
+            self.list.addItem(item)
+        self.list.setCurrentRow(at)
+        self.list.blockSignals(False)
+        self._open(at)
+
+    def _open(self, at: int) -> None:
+        there = 0 <= at < len(self.rows)
+        self.form.setVisible(there)
+        self.list.setFixedHeight(look().control * max(2, min(len(self.rows), MOST_SHOWN)) + 4)
+        self.list.setVisible(bool(self.rows))
+        self.empty.setVisible(not self.rows)
+        if there:
+            self.form.show_item(self.rows[at])
+        self.buttons["add"].setEnabled(not self.field.most or len(self.rows) < self.field.most)
+        self.buttons["remove"].setEnabled(there)
+        self.buttons["up"].setEnabled(there and at > 0)
+        self.buttons["down"].setEnabled(there and at < len(self.rows) - 1)
+        self.buttons["clear"].setEnabled(bool(self.rows))
+
+    def _words(self, number: int, row: Any) -> str:
+        context = fields.Context(self.offers.setup)
+        shown = [(name, each) for name, each in fields.fields_of(row).items() if read.shown(row, name)]
+        parts = [each.text(getattr(row, name), context) for name, each in shown if not each.empty(getattr(row, name))]
+        return f"{number}    {'  '.join(part for part in parts if part) or '…'}"
+
+    def _button(self, text: str, picture: str, action: Callable[[], None]) -> QPushButton:
+        button = QPushButton(icon(picture), text)
+        button.setMinimumHeight(look().control)
+        button.setAutoDefault(False)
+        button.setAccessibleName(f"{text}: {self.field.label}")
+        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        button.clicked.connect(lambda: action())
+        return button

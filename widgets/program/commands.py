@@ -1,0 +1,60 @@
+"""What can be done to the program from menu, right click and keyboard: one row each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QWidget
+
+from widgets.parts.icons import icon
+
+
+@dataclass(frozen=True)
+class CommandRow:
+    """Name of the method of the program view, words, keys, picture, and what it does in one sentence."""
+
+    name: str
+    text: str
+    keys: str
+    picture: str
+    help: str
+    in_menu: bool = True  # of the right click
+
+
+COMMANDS = (
+    CommandRow("undo", "Undo", "Ctrl+Z", "undo", "Takes the last change back", False),
+    CommandRow("redo", "Redo", "Ctrl+Y", "redo", "Makes the change again that was taken back", False),
+    CommandRow("modify", "Modify…", "Ctrl+M", "edit", "Opens the dialog of the step (Enter or double click)"),
+    CommandRow("insert", "Insert before…", "Ctrl+I", "add", "The next new step goes in front of this one"),
+    CommandRow("comment", "Insert comment…", "Ctrl+E", "comment", "Adds a remark in front of this step"),
+    CommandRow(
+        "comment_out", "Comment out", "Ctrl+U", "close", "Keeps the step but sends nothing; again brings it back"
+    ),
+    CommandRow("view_code", "View code", "Ctrl+D", "code", "Shows the two-letter code of the step"),
+    CommandRow("cut", "Cut", "Ctrl+X", "cut", "Takes the steps out, to be pasted elsewhere"),
+    CommandRow("copy", "Copy", "Ctrl+C", "copy", "Copies the steps"),
+    CommandRow("paste", "Paste", "Ctrl+V", "paste", "Adds the copied steps in front of the selected one"),
+    CommandRow("duplicate", "Duplicate", "Ctrl+Shift+D", "duplicate", "Adds the same steps again behind these"),
+    CommandRow("delete", "Delete", "Del", "delete", "Removes the steps; Undo brings them back"),
+    CommandRow("move_up", "Move up", "Alt+Up", "up", "Moves the steps one place up"),
+    CommandRow("move_down", "Move down", "Alt+Down", "down", "Moves the steps one place down"),
+    CommandRow("end_of_repeat", "End of repeat", "Ctrl+Return", "loop", "New steps go behind the repeat again"),
+    CommandRow("find", "Find instruction", "Ctrl+F", "search", "Searches the instructions", False),
+    CommandRow("mode_program", "Program", "Ctrl+1", "program", "Plain English beside its code", False),
+    CommandRow("mode_both", "Both", "Ctrl+2", "both", "Plain English and the whole code side by side", False),
+    CommandRow("mode_code", "Code", "Ctrl+3", "code", "Only the two-letter code", False),
+)
+
+
+def make_actions(owner: QWidget) -> dict[str, QAction]:
+    """An action for each row; it calls the method of that name."""
+    actions = {}
+    for row in COMMANDS:
+        action = QAction(icon(row.picture), row.text, owner)
+        action.setShortcut(QKeySequence(row.keys))
+        action.setToolTip(f"{row.help} ({row.keys})")
+        action.setStatusTip(row.help)
+        action.triggered.connect(getattr(owner, row.name))
+        actions[row.name] = action
+    return actions

@@ -1,0 +1,94 @@
+"""The open instruction dialogs of one program window."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from codegen.instructions import Instruction
+from codegen.program import Place, Section, find
+from widgets.form.dialog import InstructionDialog
+from widgets.form.offers import Offers, offers_of
+from widgets.program.node import TITLES
+
+if TYPE_CHECKING:
+    from widgets.program.editing import Editing
+
+
+class Dialogs(QObject):
+    """Opens dialogs beside each other; none of them blocks anything."""
+
+    said = Signal(str)
+    help_requested = Signal(str)
+
+    def __init__(self, view: QWidget, session: Editing) -> None:
+        super().__init__(view)
+        self.view, self.session = view, session
+        self.open: list[InstructionDialog] = []
+
+    def add(
+        self, kind: type[Instruction], *, before: str | None = None, place: Place | None = None
+    ) -> InstructionDialog:
+        """The dialog of a new step."""
+        dialog = self._show(kind(), new=True, where=self._where(kind, before, place))
+        dialog.added.connect(lambda instruction, section, stay: self._added(instruction, section, before, place))
+        return dialog
+
+    def modify(self, step_id: str) -> InstructionDialog:
+        """The dialog of a step that is there; a second call brings the open one to the front."""
+        for dialog in self.open:
+            if dialog.property("step") == step_id:
+                dialog.raise_()
+                dialog.activateWindow()
+                return dialog
+        step = find(self.session.document.program, step_id)
+        dialog = self._show(step.instruction, new=False, where="")
+        dialog.setProperty("step", step_id)
+        dialog.changed.connect(lambda instruction: self._changed(step_id, instruction))
+        return dialog
+
+    def show_offers(self, offers: Offers) -> None:
+        """Labels, variables and units as they are now; dialogs of steps that are gone close."""
+        there = {step.id for step in self.session.document.program.steps()} if self.open else set()
+        for dialog in list(self.open):
+            step_id = dialog.property("step")
+            if step_id and step_id not in there:
+                dialog.reject()
+            else:
+                dialog.show_offers(offers)
+
+    # ---- inside
+
+    def _show(self, instruction: Instruction, *, new: bool, where: str) -> InstructionDialog:
+        dialog = InstructionDialog(
+            instruction, offers_of(self.session.document), new=new, where=where, parent=self.view.window()
+        )
+        self.open.append(dialog)
+        dialog.finished.connect(lambda _: self.open.remove(dialog))
+        dialog.help_requested.connect(self.help_requested)
+        dialog.show()
+        dialog.form.fields.focus_first()
+        return dialog
+
+    def _added(self, instruction: Instruction, section: str, before: str | None, place: Place | None) -> None:
+        if place is not None:
+            step_id = self.session.insert_at(instruction, place)
+        else:
+            (step_id,) = self.session.insert([instruction], before, Section(section) if section else None)
+        self.view.reveal_step(step_id)  # type: ignore[attr-defined]
+        self.said.emit(f"Added: {instruction.title}")
+
+    def _changed(self, step_id: str, instruction: Instruction) -> None:
+        self.session.replace(step_id, instruction)
+        self.said.emit(f"Changed: {instruction.title}")
+
+    def _where(self, kind: type[Instruction], before: str | None, place: Place | None) -> str:
+        if before or self.session.before:
+            return "before the selected step"
+        if place is not None:
+            return ""
+        if self.session.open_body is not None and kind.section not in ("C", "S"):
+            return "inside the repeat"
+        return {"C": f"to {TITLES['configuration']}", "S": f"to {TITLES['routines']}"}.get(kind.section, "")

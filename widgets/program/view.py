@@ -1,0 +1,437 @@
+"""The program window: name and description, the program in English beside its code, and everything done to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QMimeData, QPoint, Qt, Signal
+from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidget
+
+from codegen import read
+from codegen.document import Document
+from codegen.files import FileUnreadable
+from codegen.generate import Listing
+from codegen.instructions import ALL, Comment, Instruction, TwoLetterCode
+from codegen.program import Place, Section, Step, find, place_of
+from widgets.form.inspector import Inspector
+from widgets.form.offers import offers_of
+from widgets.program.code_popup import CodePopup
+from widgets.program.commands import COMMANDS, make_actions
+from widgets.program.delegate import ProgramDelegate
+from widgets.program.dialogs import Dialogs
+from widgets.program.header import Header
+from widgets.program.insertion_bar import InsertionBar
+from widgets.program.model import STEPS_MIME, ProgramModel
+from widgets.program.node import TITLES
+from widgets.program.palette import Palette
+from widgets.program.problems import ProblemsPanel
+from widgets.program.tree import ProgramTree
+from widgets.program.words import Words
+from widgets.source.view import CodeView
+
+if TYPE_CHECKING:
+    from widgets.program.editing import Editing
+
+MODES = ("program", "both", "code")
+NEEDS_STEP = frozenset(
+    {"modify", "comment_out", "view_code", "cut", "copy", "delete", "duplicate", "move_up", "move_down"}
+)
+
+
+class ProgramView(QWidget):
+    """Centre of the main window. Owns palette, problems and inspector too; whoever shows the window docks them."""
+
+    said = Signal(str)
+    help_requested = Signal(str)
+    selection_changed = Signal()
+    mode_changed = Signal(str)
+
+    def __init__(self, session: Editing, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.session = session
+        self.setAccessibleName("Program window")
+        self.setProperty("helpPage", "Program window")
+        self.words = Words()
+        self.model = ProgramModel(self.words, self)
+        self.delegate = ProgramDelegate(self.words)
+        self.tree = ProgramTree(self.model, self.delegate)
+        self.code = CodeView()
+        self.header = Header()
+        self.bar = InsertionBar()
+        self.instructions = Palette()
+        self.problems = ProblemsPanel()
+        self.inspector = Inspector(offers_of(session.document))
+        self.dialogs = Dialogs(self, session)
+        self.mode = "program"
+        self.running: Listing | None = None
+        self._stepping = False
+        self.commands = make_actions(self)
+        self._lay_out()
+        self._connect()
+        self.set_view("program")
+        self.show_document(None, session.document)
+        self.tree.choose(["main"])
+
+    # ---- showing
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        """Brings everything from `old` to `new`; what did not change is not touched."""
+        listing = self.session.listing
+        self.words.show(new, listing)
+        self.model.show(old, new)
+        if old is None:
+            self.tree.expandAll()
+        self.tree.viewport().update()
+        self.code.show_lines([line.text for line in listing.lines], self._problem_lines(listing))
+        self.header.show_program(new.program)
+        self.problems.show_problems(new, listing)
+        self.dialogs.show_offers(offers_of(new))
+        if old is None or old.setup != new.setup:
+            self.instructions.show_setup(new.working_setup)
+        self._show_selection(scroll=False)
+        self._show_insertion()
+        self.refresh_commands()
+
+    def show_executing(self, threads: Mapping[int, int | None]) -> None:
+        """Marks the line each thread stands on (line of what was downloaded; None: the thread does not run)."""
+        listing = self.running or self.session.listing
+        steps: dict[str, tuple[int, ...]] = {}
+        for thread, line in threads.items():
+            if line is not None and 0 <= line < len(listing.lines):
+                step = listing.step_of(line)
+                steps[step] = (*steps.get(step, ()), thread)
+        if steps != self.delegate.executing:
+            self.delegate.executing = steps
+            self.tree.viewport().update()
+        self.code.show_executing(threads)
+
+    def show_error(self, line: int, text: str) -> None:
+        """Opens the program on the instruction the controller stopped at."""
+        listing = self.running or self.session.listing
+        step = listing.step_of(line) if 0 <= line < len(listing.lines) else ""
+        self.delegate.error = (step, text)
+        self.code.show_error(line)
+        self.reveal_step(step)
+        self.tree.viewport().update()
+        self.said.emit(f"Line {line}: {text}")
+
+    def clear_error(self) -> None:
+        """The error has been seen."""
+        self.delegate.error = None
+        self.code.show_error(None)
+        self.tree.viewport().update()
+
+    def reveal_step(self, step_id: str) -> None:
+        """Selects a step and brings it into view."""
+        if self.mode == "code":
+            self.set_view("both")
+        self.tree.choose([step_id])
+
+    def reveal_line(self, line: int) -> None:
+        """Selects the step a line of code belongs to."""
+        self.reveal_step(self.session.listing.step_of(line))
+
+    def current_step(self) -> str | None:
+        """Id of the step with the focus frame."""
+        return self.tree.current()
+
+    def set_view(self, mode: str) -> None:
+        """`program`: English beside its code; `both`: English and the listing; `code`: the listing."""
+        self.mode = mode
+        self.tree.setVisible(mode != "code")
+        self.bar.setVisible(mode != "code" and bool(self.bar.text.text()))
+        self.code.setVisible(mode != "program")
+        self.tree.show_code_column(mode == "program")
+        self.header.show_mode(mode)
+        (self.code if mode == "code" else self.tree).setFocus()
+        self.mode_changed.emit(mode)
+
+    # ---- what can be done now
+
+    def can(self, name: str) -> str | None:
+        """None when the command is possible now, else the reason in words."""
+        if name == "undo":
+            return None if self.session.can_undo else "Nothing to undo"
+        if name == "redo":
+            return None if self.session.can_redo else "Nothing to redo"
+        if name in NEEDS_STEP and not self.tree.chosen():
+            return "Select a step first"
+        if name == "insert" and self.tree.current() is None:
+            return "Select the step to insert before"
+        if name == "end_of_repeat" and self.session.open_body is None and self.session.before is None:
+            return "New steps already go to the end"
+        if name == "paste" and not self._clipboard():
+            return "Copy steps of a program first"
+        return None
+
+    def refresh_commands(self) -> None:
+        """Greys what is not possible now and says why."""
+        for row in COMMANDS:
+            action, reason = self.commands[row.name], self.can(row.name)
+            action.setEnabled(reason is None)
+            action.setStatusTip(reason or row.help)
+            action.setToolTip(f"{reason or row.help} ({row.keys})")
+        for name, label in (("undo", self.session.undo_text), ("redo", self.session.redo_text)):
+            self.commands[name].setText(f"{name.capitalize()}: {label}" if label else name.capitalize())
+        chosen = self.tree.chosen()
+        off = bool(chosen) and not any(self.step(step_id).enabled for step_id in chosen)
+        self.commands["comment_out"].setText("Bring back" if off else "Comment out")
+
+    def step(self, step_id: str) -> Step:
+        """A step of the document."""
+        return find(self.session.document.program, step_id)
+
+    # ---- commands
+
+    def undo(self) -> None:
+        label = self.session.undo_text
+        self.session.undo()
+        self.said.emit(f"Undone: {label}")
+
+    def redo(self) -> None:
+        label = self.session.redo_text
+        self.session.redo()
+        self.said.emit(f"Done again: {label}")
+
+    def modify(self) -> None:
+        step_id = self.tree.current() or next(iter(self.tree.chosen()), None)
+        if step_id is not None:
+            self.dialogs.modify(step_id)
+
+    def insert(self) -> None:
+        self.session.insert_before(self.tree.current())
+        self.find()
+
+    insert_before = insert
+
+    def comment(self) -> None:
+        self.dialogs.add(Comment, before=self.tree.current())
+
+    insert_comment = comment
+
+    def comment_out(self) -> None:
+        self.session.comment_out(self.tree.chosen())
+
+    def view_code(self) -> None:
+        for step_id in self.tree.chosen()[:1]:
+            CodePopup(self.words, self.step(step_id), self).show()
+
+    def cut(self) -> None:
+        self.copy()
+        self.delete()
+
+    def copy(self) -> None:
+        ids = self.tree.chosen()
+        if ids:
+            data = QMimeData()
+            text = self.session.copy(ids)
+            data.setData(STEPS_MIME, ("\n".join(ids) + "\f" + text).encode())
+            data.setText("\n".join(self._plain(step_id) for step_id in ids))
+            QApplication.clipboard().setMimeData(data)
+            self.refresh_commands()
+
+    def paste(self) -> None:
+        kind, text = self._clipboard_text()
+        before = self.tree.current() if self.tree.chosen() else None
+        if kind == "steps":
+            self._paste(text, before=before)
+        elif kind == "code":
+            self.tree.choose(self.session.insert([TwoLetterCode(text=text)], before, None))
+
+    def duplicate(self) -> None:
+        ids = self.tree.chosen()
+        if ids:
+            last = place_of(self.session.document.program, ids[-1])
+            self._paste(self.session.copy(ids), place=Place(last.parent, last.index + 1))
+
+    def delete(self) -> None:
+        ids = self.tree.chosen()
+        if ids:
+            below = self.tree.indexBelow(self.model.index_of(ids[-1]))
+            after = self.model.node(below).id if below.isValid() else ""
+            self.session.remove(ids)
+            if self.model.index_of(after).isValid():
+                self.tree.choose([after])
+            self.said.emit("Deleted. Ctrl+Z brings it back.")
+
+    def move_up(self) -> None:
+        self._shift(-1)
+
+    def move_down(self) -> None:
+        self._shift(1)
+
+    def end_of_repeat(self) -> None:
+        if self.session.before is not None:
+            self.session.insert_before(None)
+        else:
+            self.session.leave_body()
+
+    def find(self) -> None:
+        self.instructions.focus_search()
+
+    def mode_program(self) -> None:
+        self.set_view("program")
+
+    def mode_both(self) -> None:
+        self.set_view("both")
+
+    def mode_code(self) -> None:
+        self.set_view("code")
+
+    # ---- inside
+
+    def _shift(self, by: int) -> None:
+        ids = self.tree.chosen()
+        if not ids:
+            return
+        program = self.session.document.program
+        edge = place_of(program, ids[0] if by < 0 else ids[-1])
+        index = edge.index - 1 if by < 0 else edge.index + 2
+        if 0 <= index <= len(self.model.nodes[edge.parent].children):
+            self._move(ids, (edge.parent, index))
+
+    def _paste(self, text: str, before: str | None = None, place: Place | None = None) -> None:
+        try:
+            self.tree.choose(self.session.paste(text, before, place))
+        except FileUnreadable as failure:
+            self.said.emit(str(failure))
+
+    def _move(self, ids: Sequence[str], where: tuple[str, int]) -> None:
+        place = Place(*where)
+        reason = self.session.refusal([self.step(step_id) for step_id in ids], place)
+        if reason:
+            self.said.emit(reason)
+        else:
+            self.session.move(ids, place)
+            self.tree.choose(ids)
+
+    def _drop_text(self, text: str, where: tuple[str, int]) -> None:
+        self._paste(text, place=Place(*where))
+
+    def _drop_new(self, title: str, where: tuple[str, int]) -> None:
+        kind = next(each for each in ALL if each.title == title)
+        self.dialogs.add(kind, place=Place(*where))
+
+    def _chosen_kind(self, kind: type[Instruction]) -> None:
+        reason = read.cannot(kind, self.session.document.working_setup)
+        if reason:
+            self.said.emit(reason)
+        else:
+            self.dialogs.add(kind)
+
+    def _show_selection(self, *, scroll: bool = True) -> None:
+        chosen = self.tree.chosen()
+        listing = self.session.listing
+        self.code.show_chosen([line for step_id in chosen for line in listing.lines_of(step_id)], scroll=scroll)
+        one = self.step(chosen[0]) if len(chosen) == 1 else None
+        self.inspector.show_step(one, offers_of(self.session.document))
+
+    def _selection_changed(self) -> None:
+        self._show_selection(scroll=not self._stepping)
+        self.refresh_commands()
+        self.selection_changed.emit()
+
+    def _code_line(self, line: int) -> None:
+        self._stepping = True
+        step = self.session.listing.step_of(line)
+        if step:
+            self.tree.choose([step])
+        self._stepping = False
+
+    def _show_insertion(self) -> None:
+        session = self.session
+        name = session.before or session.open_body
+        if name is None or not self.model.index_of(name).isValid():
+            self.bar.show_text("")
+            self.delegate.next_place = ("", "")
+        else:
+            where = "before" if session.before else "inside"
+            self.bar.show_text(f"New steps go {where}: {self.words.english(self.step(name))}")
+            last = (
+                self.model.nodes[name].children[-1].id
+                if where == "inside" and self.model.nodes[name].children
+                else name
+            )
+            self.delegate.next_place = ("before" if where == "before" else "after", last)
+        self.bar.setVisible(self.mode != "code" and bool(self.bar.text.text()))
+        self.tree.viewport().update()
+        self.refresh_commands()
+
+    def _problem_lines(self, listing: Listing) -> dict[int, str]:
+        return {
+            line: messages[0]
+            for step, messages in self.words.problems.items()
+            if step
+            for line in list(listing.lines_of(step))[:1]
+        }
+
+    def _plain(self, step_id: str) -> str:
+        return "\n".join(self.words.code_lines(self.step(step_id))) or self.words.english(self.step(step_id))
+
+    def _clipboard(self) -> bool:
+        data = QApplication.clipboard().mimeData()
+        return data is not None and (data.hasFormat(STEPS_MIME) or data.hasText())
+
+    def _clipboard_text(self) -> tuple[str, str]:
+        data = QApplication.clipboard().mimeData()
+        if data is None:
+            return "", ""
+        if data.hasFormat(STEPS_MIME):
+            return "steps", bytes(data.data(STEPS_MIME).data()).decode().partition("\f")[2]
+        return ("code", data.text()) if data.hasText() else ("", "")
+
+    def _menu(self, point: QPoint) -> None:
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for row in COMMANDS:
+            if row.in_menu:
+                menu.addAction(self.commands[row.name])
+            if row.name in ("view_code", "delete"):
+                menu.addSeparator()
+        menu.popup(self.tree.viewport().mapToGlobal(point))
+
+    def _connect(self) -> None:
+        session, tree = self.session, self.tree
+        session.document_changed.connect(self.show_document)
+        session.history_changed.connect(self.refresh_commands)
+        session.insertion_changed.connect(self._show_insertion)
+        self.model.copy_text = session.copy
+        self.model.moved.connect(self._move, Qt.ConnectionType.QueuedConnection)
+        self.model.pasted.connect(self._drop_text, Qt.ConnectionType.QueuedConnection)
+        self.model.chosen.connect(self._drop_new, Qt.ConnectionType.QueuedConnection)
+        tree.modify_wanted.connect(self.dialogs.modify)
+        tree.chosen_changed.connect(self._selection_changed)
+        tree.customContextMenuRequested.connect(self._menu)
+        self.code.line_chosen.connect(self._code_line)
+        self.header.named.connect(lambda name: session.set_program(name=name))
+        self.header.described.connect(lambda text: session.set_program(description=text))
+        self.header.mode_chosen.connect(self.set_view)
+        self.bar.left.connect(self.end_of_repeat)
+        self.instructions.chosen.connect(self._chosen_kind)
+        self.problems.chosen.connect(self.reveal_step)
+        self.inspector.edited.connect(session.replace)
+        self.dialogs.said.connect(self.said)
+        self.dialogs.help_requested.connect(self.help_requested)
+        QApplication.clipboard().dataChanged.connect(self.refresh_commands)
+
+    def _lay_out(self) -> None:
+        self.tree.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        for name, action in self.commands.items():
+            everywhere = name in ("undo", "redo", "find", "mode_program", "mode_both", "mode_code")
+            context = Qt.ShortcutContext
+            action.setShortcutContext(context.WindowShortcut if everywhere else context.WidgetShortcut)
+            (self if everywhere else self.tree).addAction(action)
+        self.splitter = QSplitter()
+        self.splitter.setChildrenCollapsible(False)
+        self.splitter.addWidget(self.tree)
+        self.splitter.addWidget(self.code)
+        self.splitter.setStretchFactor(0, 3)
+        self.splitter.setStretchFactor(1, 2)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 8, 8, 8)
+        column.setSpacing(8)
+        for widget in (self.header, self.bar, self.splitter):
+            column.addWidget(widget)
+        column.setStretchFactor(self.splitter, 1)
+        self.setAccessibleDescription(f"Sections {', '.join(TITLES[section.value] for section in Section)}")

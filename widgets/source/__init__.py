@@ -1,0 +1,1 @@
+"""The two-letter code as text."""

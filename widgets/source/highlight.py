@@ -1,0 +1,57 @@
+"""Colours for two-letter source, from the parser's own tokens; one line at a time."""
+
+from __future__ import annotations
+
+import re
+
+from PySide6.QtGui import QFont, QSyntaxHighlighter, QTextCharFormat, QTextDocument
+
+from widgets.parts.look import look
+
+# The order counts: comments and texts first, so that nothing inside them is taken for a command.
+PARTS = re.compile(
+    r"(?P<comment>(?:^|(?<=;))\s*(?:NO\b|REM\b|').*$)"
+    r"|(?P<string>\"[^\"]*\"?)"
+    r"|(?P<label>#[A-Za-z][A-Za-z0-9]{0,6})"
+    r"|(?P<operand>_[A-Z]{2}[A-Z0-9]?|@[A-Z]{2,4})"
+    r"|(?P<command>(?:^|(?<=;))\s*[A-Z]{2}(?=$|[^A-Za-z0-9_=\[]|\d|[XYZWS]+\b))"
+    r"|(?P<number>\$[0-9A-F]+|(?<![A-Za-z0-9_])\d+(?:\.\d+)?)"
+)
+COLOURS = {
+    "comment": "code_comment",
+    "string": "code_string",
+    "label": "code_label",
+    "operand": "code_command",
+    "command": "code_command",
+    "number": "code_number",
+}
+
+
+class Highlighter(QSyntaxHighlighter):
+    """Colours commands, labels, numbers, texts and comments."""
+
+    def __init__(self, document: QTextDocument) -> None:
+        super().__init__(document)
+        self._formats: dict[str, QTextCharFormat] = {}
+
+    def highlightBlock(self, text: str) -> None:
+        """Colours one line."""
+        for part in PARTS.finditer(text):
+            kind = part.lastgroup or ""
+            self.setFormat(part.start(), part.end() - part.start(), self._format(kind))
+
+    def recolour(self) -> None:
+        """Takes the colours of the theme that is on now."""
+        self._formats.clear()
+        self.rehighlight()
+
+    def _format(self, kind: str) -> QTextCharFormat:
+        if kind not in self._formats:
+            format_ = QTextCharFormat()
+            format_.setForeground(look().colour(COLOURS[kind]))
+            if kind == "label":
+                format_.setFontWeight(QFont.Weight.Bold)
+            if kind == "comment":
+                format_.setFontItalic(True)
+            self._formats[kind] = format_
+        return self._formats[kind]

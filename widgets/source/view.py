@@ -1,0 +1,188 @@
+"""The generated two-letter code, read only, in step with the program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from PySide6.QtCore import QEvent, QRect, Qt, Signal
+from PySide6.QtGui import QColor, QResizeEvent, QTextCursor, QTextFormat
+from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QWidget
+
+from widgets.parts.look import look
+from widgets.source.highlight import Highlighter
+from widgets.source.margin import Margin
+
+
+class CodeView(QPlainTextEdit):
+    """Lines of code; the user's cursor and the chosen steps light up on both sides."""
+
+    line_chosen = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setReadOnly(True)
+        self.setTextInteractionFlags(
+            Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
+        )
+        self.setUndoRedoEnabled(False)
+        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.setAccessibleName("Two-letter code")
+        self.setPlaceholderText("The two-letter code of your program appears here.")
+        self.setProperty("role", "code")
+        self.setProperty("helpPage", "Program window")
+        self.setFont(look().code_font())
+        self.lines: list[str] = []
+        self.problem_lines: dict[int, str] = {}
+        self.executing: dict[int, int] = {}
+        self.chosen: tuple[int, ...] = ()
+        self.error_line: int | None = None
+        self.highlighter = Highlighter(self.document())
+        self.margin = Margin(self)
+        self._following = False
+        self.blockCountChanged.connect(lambda _: self._place_margin())
+        self.updateRequest.connect(self._scroll_margin)
+        self.cursorPositionChanged.connect(self._cursor_moved)
+        self._place_margin()
+
+    # ---- what is shown
+
+    def show_lines(self, lines: Sequence[str], problems: Mapping[int, str]) -> None:
+        """Shows `lines`; only the lines that differ are replaced, so scrolling and colours stay."""
+        new = list(lines)
+        first = _same(self.lines, new)
+        last = _same(self.lines[first:][::-1], new[first:][::-1])
+        if first < len(self.lines) or first < len(new):
+            self._following = True
+            self._replace(first, len(self.lines) - last, new[first : len(new) - last], len(new))
+            self._following = False
+        self.lines = new
+        self.problem_lines = dict(problems)
+        self._paint_extras()
+
+    def show_chosen(self, numbers: Sequence[int], *, scroll: bool = True) -> None:
+        """Lights up the lines of the chosen steps and brings the first into view."""
+        self.chosen = tuple(numbers)
+        self._paint_extras()
+        if scroll and self.chosen:
+            self._reveal(self.chosen[0])
+
+    def show_executing(self, executing: Mapping[int, int | None]) -> None:
+        """Marks the line each thread stands on."""
+        now = {thread: line for thread, line in executing.items() if line is not None}
+        if now != self.executing:
+            self.executing = now
+            self._paint_extras()
+
+    def show_error(self, line: int | None) -> None:
+        """Marks the line the controller stopped on; None clears it."""
+        self.error_line = line
+        self._paint_extras()
+        if line is not None:
+            self._reveal(line)
+
+    def threads_at(self, line: int) -> tuple[int, ...]:
+        """The threads that stand on a line."""
+        return tuple(thread for thread, at in self.executing.items() if at == line)
+
+    # ---- margin
+
+    def margin_width(self) -> int:
+        """Room for the line number and one mark."""
+        return self.fontMetrics().horizontalAdvance("0000") + 28
+
+    def visible_lines(self) -> Iterator[tuple[int, float, float]]:
+        """Number, top and height of each line on the screen."""
+        block = self.firstVisibleBlock()
+        top = self.blockBoundingGeometry(block).translated(self.contentOffset()).top()
+        while block.isValid() and top <= self.viewport().height():
+            height = self.blockBoundingRect(block).height()
+            if block.blockNumber() < len(self.lines):
+                yield block.blockNumber(), top, height
+            top += height
+            block = block.next()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keeps the margin beside the text."""
+        super().resizeEvent(event)
+        self._place_margin()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Takes the colours of a changed theme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "margin"):
+            self.highlighter.recolour()
+            self._paint_extras()
+
+    # ---- inside
+
+    def _replace(self, first: int, end: int, lines: Sequence[str], total: int) -> None:
+        """Replaces the shown lines `first` … `end` (exclusive)."""
+        cursor = QTextCursor(self.document())
+        cursor.beginEditBlock()
+        if first == 0 and end >= len(self.lines):
+            cursor.select(QTextCursor.SelectionType.Document)
+            cursor.insertText("\n".join(lines))
+        elif end >= len(self.lines):
+            cursor.setPosition(self.document().findBlockByNumber(first - 1).position())
+            cursor.movePosition(QTextCursor.MoveOperation.EndOfBlock)
+            cursor.movePosition(QTextCursor.MoveOperation.End, QTextCursor.MoveMode.KeepAnchor)
+            cursor.insertText("".join("\n" + line for line in lines))
+        else:
+            cursor.setPosition(self.document().findBlockByNumber(first).position())
+            after = self.document().findBlockByNumber(end).position()
+            cursor.setPosition(after, QTextCursor.MoveMode.KeepAnchor)
+            cursor.insertText("".join(line + "\n" for line in lines))
+        cursor.endEditBlock()
+
+    def _cursor_moved(self) -> None:
+        if not self._following:
+            self.line_chosen.emit(self.textCursor().blockNumber())
+
+    def _reveal(self, number: int) -> None:
+        block = self.document().findBlockByNumber(number)
+        if not block.isValid() or block.blockNumber() == self.textCursor().blockNumber():
+            return
+        self._following = True
+        cursor = QTextCursor(block)
+        self.setTextCursor(cursor)
+        self.ensureCursorVisible()
+        self._following = False
+
+    def _paint_extras(self) -> None:
+        tints = [(number, "selection") for number in self.chosen]
+        tints += [(number, "executing") for number in self.executing.values()]
+        if self.error_line is not None:
+            tints.append((self.error_line, "fault"))
+        self.setExtraSelections([self._tint(number, token) for number, token in tints if number < len(self.lines)])
+        self.margin.update()
+
+    def _tint(self, number: int, token: str) -> QTextEdit.ExtraSelection:
+        selection = QTextEdit.ExtraSelection()
+        colour = QColor(look().colour(token))
+        colour.setAlpha(70)
+        selection.format.setBackground(colour)
+        selection.format.setProperty(QTextFormat.Property.FullWidthSelection, True)
+        selection.cursor = QTextCursor(self.document().findBlockByNumber(number))
+        return selection
+
+    def _place_margin(self) -> None:
+        width = self.margin_width()
+        self.setViewportMargins(width, 0, 0, 0)
+        inside = self.contentsRect()
+        self.margin.setGeometry(QRect(inside.left(), inside.top(), width, inside.height()))
+
+    def _scroll_margin(self, rect: QRect, dy: int) -> None:
+        if dy:
+            self.margin.scroll(0, dy)
+        else:
+            self.margin.update(0, rect.y(), self.margin.width(), rect.height())
+
+
+def _same(one: Sequence[str], other: Sequence[str]) -> int:
+    """How many lines are the same from the start."""
+    count = 0
+    for left, right in zip(one, other, strict=False):
+        if left != right:
+            break
+        count += 1
+    return count
