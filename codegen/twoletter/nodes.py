@@ -113,6 +113,8 @@ class Group:
 
 Expression: TypeAlias = Number | String | Variable | Element | Operand | Keyword | Function | Negative | Binary | Group
 
+EXPRESSIONS = (Number, String, Variable, Element, Operand, Keyword, Function, Negative, Binary, Group)  # for isinstance
+
 
 # ------------------------------------------------------------------ arguments
 

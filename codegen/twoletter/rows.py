@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, Protocol
 
 from codegen.models import Model
-from codegen.twoletter.fixed import ONE, scaled
+from codegen.twoletter.fixed import ONE, places, scaled
 
 Number = int | float
 Confidence = Literal["high", "medium", "low"]
@@ -20,6 +20,7 @@ BOTH = SSC | DMC141X
 
 FRACTION = 1 / ONE  # the finest step there is
 VOLT_STEP = 20 / ONE  # one step of the 16-bit converter over +/-10 V
+MOST_DIGITS, MOST_HEXADECIMAL, MOST_DECIMALS = 10, 8, 4  # of PF and VF (dmc-1412-1414.txt l.3758)
 
 
 class Takes(Enum):
@@ -54,7 +55,35 @@ class Takes(Enum):
 BY_AXIS = frozenset({Takes.AXIS_NUMBERS, Takes.ONE_AXIS_NUMBER, Takes.SEGMENT_AXES, Takes.TABLE})
 
 
-def bounds(row: Field | Row, model: Model | None, axis_is_stepper: bool = False) -> tuple[Number | None, Number | None]:
+class Limits(Protocol):
+    """What fields, rows and functions have in common: the limits of a number.
+
+    `also` lists further values allowed, `never` values inside the range that are not.
+    """
+
+    @property
+    def low(self) -> Number | None: ...
+    @property
+    def high(self) -> Number | None: ...
+    @property
+    def step(self) -> Number | None: ...
+    @property
+    def choices(self) -> tuple[Number, ...]: ...
+    @property
+    def also(self) -> tuple[Number, ...]: ...
+    @property
+    def never(self) -> tuple[Number, ...]: ...
+    @property
+    def high_from(self) -> str: ...
+    @property
+    def low_from(self) -> str: ...
+    @property
+    def below(self) -> int: ...
+    @property
+    def unit(self) -> str: ...
+
+
+def bounds(row: Limits, model: Model | None, axis_is_stepper: bool = False) -> tuple[Number | None, Number | None]:
     """Lowest and highest value on that model, in the row's units; None where nothing is fixed."""
     low, high = row.low, row.high
     if model is None or model.family == "smartmotor":
@@ -70,10 +99,17 @@ def bounds(row: Field | Row, model: Model | None, axis_is_stepper: bool = False)
     return low, high
 
 
-def within(row: Field | Row, value: int, model: Model | None, axis_is_stepper: bool = False) -> bool:
+def within(row: Limits, value: int, model: Model | None, axis_is_stepper: bool = False) -> bool:
     """Whether the scaled value, rounded as the register rounds it, lies in the range and among the choices."""
     if row.choices:
         return value in [scaled(choice) for choice in row.choices]
+    if row.unit == "digits":
+        digits, decimals, hexadecimal = places(value)
+        return decimals <= MOST_DECIMALS and digits <= (MOST_HEXADECIMAL if hexadecimal else MOST_DIGITS)
+    if value in [scaled(extra) for extra in row.also]:
+        return True
+    if value in [scaled(hole) for hole in row.never]:
+        return False
     low, high = bounds(row, model, axis_is_stepper)
     if row.step == 1:
         value = value >> 16 << 16
@@ -105,6 +141,9 @@ class Field:
     high_from: str = ""
     low_from: str = ""
     below: int = 0
+    unit: str = ""
+    also: tuple[Number, ...] = ()
+    never: tuple[Number, ...] = ()
     optional: bool = True
 
     def range_for(self, model: Model, axis_is_stepper: bool = False) -> tuple[Number | None, Number | None]:
@@ -142,6 +181,8 @@ class Row:
     step: Number | None = None
     default: Number | str | None = None
     choices: tuple[Number, ...] = ()
+    also: tuple[Number, ...] = ()
+    never: tuple[Number, ...] = ()
     high_from: str = ""
     low_from: str = ""
     below: int = 0
@@ -221,9 +262,18 @@ class FunctionRow:
     high_from: str = ""
     low_from: str = ""
     below: int = 0
+    also: tuple[Number, ...] = ()
+    never: tuple[Number, ...] = ()
     families: frozenset[str] = BOTH
     confidence: Confidence = "high"
     profile: str = ""
+
+    def accepts(self, value: int, model: Model | None) -> bool:
+        """Whether the scaled argument is in range."""
+        return within(self, value, model)
+
+    def range_for(self, model: Model) -> tuple[Number | None, Number | None]:
+        return bounds(self, model)
 
 
 def table(rows: Sequence[Row]) -> dict[str, Row]:

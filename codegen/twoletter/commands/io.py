@@ -84,6 +84,7 @@ IO: tuple[Row, ...] = (
         low=-8,
         high=8,
         step=1,
+        never=(0,),
         high_from="inputs",
         unit="input number",
         trippoint=True,

@@ -211,6 +211,7 @@ SERVO: tuple[Row, ...] = (
         high=20000,
         step=125,
         default=1000,
+        also=(-1,),
         low_from="tm_min_us",
         unit="us",
         reply="5.0",

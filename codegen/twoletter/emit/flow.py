@@ -22,9 +22,11 @@ from codegen.instructions.flow import (
 )
 from codegen.instructions.motion import WaitFor
 from codegen.instructions.waits import Clock, Finished, Moving, Place, WaitForCondition, WaitKind
-from codegen.twoletter.calls import BODY, Assign, Mark, Statement, by_axis, for_axes, numbers, simple, target
+from codegen.twoletter.calls import BODY, Assign, Mark, Statement, Value, by_axis, for_axes, numbers, simple, target
 from codegen.twoletter.emit.build import Build, is_false, raw
 from codegen.twoletter.emit.motion import wait_for
+
+PASSING = {Place.PASSED: "AP", Place.FORWARD: "MF", Place.REVERSE: "MR"}
 
 
 def label(label: Label, build: Build) -> Iterator[Statement]:
@@ -131,11 +133,12 @@ def wait_for_condition(wait: WaitForCondition, build: Build) -> Iterator[Stateme
 def _position(wait: WaitForCondition, build: Build) -> Statement:
     match wait.place:
         case Place.PASSED | Place.FORWARD | Place.REVERSE:
-            name = {Place.PASSED: "AP", Place.FORWARD: "MF", Place.REVERSE: "MR"}[wait.place]
-            return by_axis(name, {wait.axis: build.value(wait.position, Dimension.POSITION, wait.axis)})
+            position = build.value(wait.position, Dimension.POSITION, wait.axis)
+            return by_axis(PASSING[wait.place], {wait.axis: position})
         case Place.START:
             distance = build.value(wait.distance, Dimension.DISTANCE, wait.axis)
-            return by_axis("AD", {wait.axis: distance if isinstance(distance, str) else abs(distance)})
+            unsigned: Value = distance if isinstance(distance, str) else abs(distance)
+            return by_axis("AD", {wait.axis: unsigned})
         case Place.LAST:
             return by_axis("AR", {wait.axis: build.value(wait.distance, Dimension.DISTANCE, wait.axis)})
         case Place.PATH:

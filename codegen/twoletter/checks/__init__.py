@@ -1,0 +1,1 @@
+"""Checks of two-letter source: facts computed once, one function for each rule."""
