@@ -4,36 +4,43 @@ A file holds several examples. Each begins with `== MODEL l.FIRST-LAST title`; t
 
     plant KEY=VALUE …        what hangs on axis x (before anything else); yplant … for axis y and so on
     program                  the lines up to the next `end` become the controller's program
+    badprogram CODE          the same, and it must be refused with this error code
     port TEXT                sends a line to port 1; every prompt must be `:`
     port TEXT -> REPLY       the same; the data that comes back, without its CR LF (\\r \\n inside are escapes)
+    ask NAME EXPRESSION      NAME becomes what the controller says the expression is
     refused CODE TEXT        sends a line that must be answered `?`, for this reason
     raw TEXT                 sends these bytes (escapes), waits for nothing
     xq LABEL                 starts the program there (0 or #LABEL)
     set SIGNAL VALUE         something happens outside, as in a stimulus file
     run SECONDS              lets time pass
     idle SECONDS             lets time pass until nothing runs and nothing moves; fails when that takes longer
-    until SECONDS EXPRESSION lets time pass in true milliseconds until the expression holds; fails when that takes longer
+    until SECONDS EXPRESSION lets time pass, true milliseconds, until the expression holds; fails when that takes longer
     edges SECONDS SIGNAL     notes each change of a value (ms, value) in `edges`, in true milliseconds
+    mark                     `t` counts true milliseconds from here
     expect EXPRESSION        must hold
-    said / said2             the lines up to the next `end` are what has been sent unasked to port 1 / 2 since the last `said`
+    said / said2             the lines up to the next `end` have been sent unasked to port 1 / 2 since the last `said`
     # …                      comment
 
 Expressions know: x y z w (commanded actual error velocity torque stop_code motor_on moving), v (variables), strings,
-arrays, outputs, inputs, out(n), ms (true milliseconds since power-up), edges, errors, threads, messages, near(a, b, tolerance).
+arrays, outputs, inputs, out(n), ms (true milliseconds since power-up), t, edges, errors, threads, messages, said(port),
+gaps (milliseconds between edges), near(a, b, tolerance).
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field, fields
+from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from device.simulator.plant import Plant
-from device.simulator.simulation import Simulation
+import pytest
 
 from codegen.models import model
+from device.simulator.plant import Plant
+from device.simulator.simulation import Simulation
+from device.simulator.twoletter.memory import DownloadRefused
 
 TICKS = 1_024_000
 MILLISECOND = 1024
@@ -94,6 +101,8 @@ class Bench:
     simulation: Simulation
     heard: dict[int, int] = field(default_factory=lambda: {1: 0, 2: 0})
     edges: list[tuple[int, float]] = field(default_factory=list)
+    marked: float = 0.0
+    asked: dict[str, float] = field(default_factory=dict)
 
     @classmethod
     def of(cls, model_name: str, plants: dict[str, dict[str, Any]] | None = None) -> Bench:
@@ -121,17 +130,20 @@ class Bench:
         return {
             **axes,
             **state,
+            **self.asked,
             "v": SimpleNamespace(**state["variables"]),
             "out": lambda number: outputs >> (number - 1) & 1,
             "ms": self.seconds() * 1000,
+            "t": self.seconds() * 1000 - self.marked,
             "edges": self.edges,
+            "gaps": [later[0] - sooner[0] for sooner, later in pairwise(self.edges)],
             "near": lambda value, wanted, tolerance: abs(value - wanted) <= tolerance,
             "said": lambda port=1: [text for _, where, text in state["messages"] if where == port],
         }
 
     def value(self, expression: str) -> Any:
         """An expression of a script, worked out now."""
-        return eval(expression, {"abs": abs, "len": len, "all": all, "any": any, "round": round}, self.names())
+        return eval(expression, self.names())
 
     def answer(self, text: str, prompts: int) -> str:
         """Sends a line and collects what comes back up to its last prompt."""
@@ -186,7 +198,7 @@ class Player:
             if not word or word.startswith("#"):
                 continue
             block: list[str] = []
-            if word in ("program", "said", "said2"):
+            if word in ("program", "badprogram", "said", "said2"):
                 while (text := steps.pop(0)[1]) != "end":
                     block.append(text)
             self.place = number
@@ -200,10 +212,15 @@ class Player:
         """Does one step."""
         if word.endswith("plant"):
             values = dict(pair.split("=") for pair in rest.split())
-            self.plants[word[0] if word != "plant" else "x"] = {key: typed(text) for key, text in values.items()}
+            self.plants[(word[0] if word != "plant" else "x").upper()] = {key: typed(text) for key, text in values.items()}
             return
         if word == "program":
             self.bench.simulation.load_program("\n".join(block))
+            return
+        if word == "badprogram":
+            with pytest.raises(DownloadRefused) as refused:
+                self.bench.simulation.load_program("\n".join(block))
+            self.must(refused.value.code == int(rest), f"refused with {refused.value.code}")
             return
         if word in ("said", "said2"):
             came = self.bench.said(2 if word == "said2" else 1)
@@ -220,13 +237,18 @@ class Player:
             data = came.strip(":").removesuffix("\r\n").replace(":", "")
             self.must(data == wanted.encode().decode("unicode_escape"), f"{text} answered {data!r}")
 
+    def do_ask(self, rest: str) -> None:
+        """Asks for a value."""
+        name, _, expression = rest.partition(" ")
+        self.bench.asked[name] = float(self.bench.answer(f"MG {expression}{{F10.4}}", 1).strip(":\r\n "))
+
     def do_refused(self, rest: str) -> None:
-        """Sends a line that is refused, and asks why."""
+        """Sends a line that is refused, and asks why (`any`: whatever the reason)."""
         code, _, text = rest.partition(" ")
         came = self.bench.answer(text, commands_in(text))
         self.must(came.endswith("?"), f"{text} was accepted: {came!r}")
         why = self.bench.answer("TC1", 1).split(" ")[0]
-        self.must(int(why) == int(code), f"{text} was refused with {why}, not {code}")
+        self.must(code == "any" or int(why) == int(code), f"{text} was refused with {why}, not {code}")
 
     def do_raw(self, rest: str) -> None:
         """Sends bytes."""
@@ -272,6 +294,10 @@ class Player:
             if now != last:
                 self.bench.edges.append((round(self.bench.seconds() * 1000), now))
                 last = now
+
+    def do_mark(self, _: str) -> None:
+        """Begins to count time."""
+        self.bench.marked = self.bench.seconds() * 1000
 
     def do_expect(self, rest: str) -> None:
         """Compares."""

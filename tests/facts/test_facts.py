@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from codegen.models import model
+from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS, KEYWORDS
 from codegen.twoletter.evaluate import EvaluationError, evaluate
+from codegen.twoletter.fixed import ONE, as_integer, scaled
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.rows import Row
-
-from codegen.models import model
-from codegen.twoletter.fixed import ONE, as_integer, scaled
-from codegen.twoletter import nodes
 from tests.examples.script import Bench, commands_in
 
 Fact = dict[str, Any]
