@@ -42,6 +42,7 @@ class Motion(Readings, Outside):
         self._loop, self.compiled = loop_for(compiled)
         self._array: Vector = numpy.zeros(layout.SIZE)
         self._state: State = as_state(self._array)
+        self._parts = [layout.part(self._state, i) for i in range(axes)]
         self._no_trace: Vector = numpy.zeros(1)
         self._trace: Vector = self._no_trace
         self._plants = [plants[i] if i < len(plants) else Plant() for i in range(axes)]
@@ -62,7 +63,7 @@ class Motion(Readings, Outside):
         for axis in range(self.axes):
             write_defaults(state, axis_base(axis))
             write_plant(state, axis_base(axis), self._plants[axis], state[layout.PERIOD_T])
-            inputs.read_switches(state, axis_base(axis))
+            inputs.read_switches(self._parts[axis])
 
     # --- time -------------------------------------------------------------------------------------------------------
     def run(self, samples: int) -> int:
@@ -142,7 +143,7 @@ class Motion(Readings, Outside):
         state, b = self._state, axis_base(axis)
         mode = state[b + layout.MODE]
         if mode == layout.MODE_JOG and state[b + layout.STAGE] == layout.STAGE_NONE:
-            profile.step_by(state, b, counts)
+            profile.step_by(self._parts[axis], counts)
             state[b + layout.SMOOTHED_LAST] += counts
             return True
         ending = mode == layout.MODE_SETTLING and state[b + layout.STOP_CODE] == 1.0
@@ -172,7 +173,7 @@ class Motion(Readings, Outside):
         state, b = self._state, axis_base(axis)
         if state[b + layout.MOVING]:
             state[b + layout.STOP_CODE] = float(code)
-        profile.freeze(state, b)
+        profile.freeze(self._parts[axis])
         if state[b + layout.OFF_ON_ERROR]:
             self.motor_off(axis)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from device.simulator.kernel import inputs, layout
 from device.simulator.kernel.layout import State, axis_base
 
@@ -10,19 +12,20 @@ class Outside:
     """What happens to the machine from outside; levels are those the controller reads."""
 
     _state: State
+    _parts: Sequence[State]
     axes: int
 
     def set_limit(self, axis: int, forward: bool, level: bool) -> None:
         """Level of a limit input; the machine's own switch can still pull it low."""
         b = axis_base(axis)
         self._state[b + (layout.FORWARD_FORCED if forward else layout.REVERSE_FORCED)] = float(level)
-        inputs.read_switches(self._state, b)
+        inputs.read_switches(self._parts[axis])
 
     def set_home(self, axis: int, level: bool) -> None:
         """Level of the home input; the machine's own switch can still pull it low."""
         b = axis_base(axis)
         self._state[b + layout.HOME_FORCED] = float(level)
-        inputs.read_switches(self._state, b)
+        inputs.read_switches(self._parts[axis])
 
     def set_abort(self, level: bool) -> None:
         """Level of the abort input; low is active, from the next sample on."""

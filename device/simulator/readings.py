@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from device.simulator.kernel import inputs, layout
 from device.simulator.kernel.layout import State, axis_base
 
@@ -15,6 +17,7 @@ class Readings:
     """Reads of a motion state; changes nothing."""
 
     _state: State
+    _parts: Sequence[State]
     axes: int
 
     def _read(self, axis: int, slot: int) -> float:
@@ -102,10 +105,9 @@ class Readings:
 
     def blocked(self, axis: int, direction: float) -> bool:
         """A switch or software limit refuses motion in this direction (error 22)."""
-        b = axis_base(axis)
         if direction > 0:
-            return inputs.forward_blocked(self._state, b)
-        return direction < 0 and inputs.reverse_blocked(self._state, b)
+            return inputs.forward_blocked(self._parts[axis])
+        return direction < 0 and inputs.reverse_blocked(self._parts[axis])
 
     def forward_level(self, axis: int) -> bool:
         """Level of the forward limit input."""

@@ -34,22 +34,22 @@ from device.simulator.kernel.layout import (
 )
 
 
-def measure(S: State, b: int) -> None:
+def measure(A: State) -> None:
     """What trippoints look at: way from the start and from the last mark, and whether the machine has arrived."""
-    position = S[b + POSITION]
-    S[b + DISTANCE] = abs(position - S[b + START])
-    S[b + MARK_DISTANCE] = abs(position - S[b + MARK])
-    if S[b + MOVING] != 0.0:
-        S[b + IN_POSITION] = 0.0
+    position = A[POSITION]
+    A[DISTANCE] = abs(position - A[START])
+    A[MARK_DISTANCE] = abs(position - A[MARK])
+    if A[MOVING] != 0.0:
+        A[IN_POSITION] = 0.0
         return
-    S[b + SETTLING] += 1.0
-    if S[b + IN_POSITION] == 0.0:
-        if S[b + STEPPER] != 0.0:
-            arrived = S[b + STEPS] == S[b + REFERENCE]
+    A[SETTLING] += 1.0
+    if A[IN_POSITION] == 0.0:
+        if A[STEPPER] != 0.0:
+            arrived = A[STEPS] == A[REFERENCE]
         else:
-            arrived = (S[b + ACTUAL] - S[b + REFERENCE]) * S[b + DIRECTION] >= 0.0
+            arrived = (A[ACTUAL] - A[REFERENCE]) * A[DIRECTION] >= 0.0
         if arrived:
-            S[b + IN_POSITION] = 1.0
+            A[IN_POSITION] = 1.0
 
 
 def holds(value: float, operator: float, wanted: float) -> bool:

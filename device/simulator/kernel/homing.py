@@ -44,101 +44,101 @@ CREEP_V = 256.0
 NOWHERE = 9.0e15
 
 
-def index_passed(S: State, b: int) -> float:
+def index_passed(A: State) -> float:
     """Where (machine counts) the encoder met the index pulse in the last sample; NOWHERE if it did not."""
-    revolution = S[b + REVOLUTION]
-    now = S[b + RAW] - S[b + INDEX_AT]
-    last = S[b + RAW_LAST] - S[b + INDEX_AT]
+    revolution = A[REVOLUTION]
+    now = A[RAW] - A[INDEX_AT]
+    last = A[RAW_LAST] - A[INDEX_AT]
     if now > last:
         turn = floor(now / revolution)
         if turn > floor(last / revolution):
-            return turn * revolution + S[b + INDEX_AT]
+            return turn * revolution + A[INDEX_AT]
     elif now < last:
         turn = -floor(-now / revolution)
         if turn < -floor(-last / revolution):
-            return turn * revolution + S[b + INDEX_AT]
+            return turn * revolution + A[INDEX_AT]
     return NOWHERE
 
 
-def zero_at(S: State, b: int, raw: float) -> None:
+def zero_at(A: State, raw: float) -> None:
     """Makes the machine position `raw` the axis' position 0."""
-    shift(S, b, -(raw * S[b + ENCODER_SIGN] + S[b + COUNTS_SHIFT]))
+    shift(A, -(raw * A[ENCODER_SIGN] + A[COUNTS_SHIFT]))
 
 
-def homed(S: State, b: int, raw: float) -> None:
+def homed(S: State, A: State, raw: float) -> None:
     """The machine position `raw` is 0, and the axis is commanded there at once."""
-    zero_at(S, b, raw)
-    freeze(S, b)
-    S[b + POSITION] = 0.0
-    S[b + SMOOTHED] = 0.0
-    S[b + STOP_CODE] = 10.0
-    raise_event(S, b, EVENT_HOMED)
+    zero_at(A, raw)
+    freeze(A)
+    A[POSITION] = 0.0
+    A[SMOOTHED] = 0.0
+    A[STOP_CODE] = 10.0
+    raise_event(S, A, EVENT_HOMED)
 
 
-def creep(S: State, b: int, stage: int, direction: float) -> None:
+def creep(A: State, stage: int, direction: float) -> None:
     """Starts a stage at 256 counts/s."""
-    S[b + STAGE] = stage
-    S[b + STAGE_LEVEL] = S[b + HOME_LEVEL]
-    S[b + SLEW_V] = CREEP_V * direction
-    S[b + VELOCITY_V] = 0.0
-    S[b + MODE] = MODE_JOG
-    S[b + MOVING] = 1.0
+    A[STAGE] = stage
+    A[STAGE_LEVEL] = A[HOME_LEVEL]
+    A[SLEW_V] = CREEP_V * direction
+    A[VELOCITY_V] = 0.0
+    A[MODE] = MODE_JOG
+    A[MOVING] = 1.0
 
 
-def search(S: State, b: int, stage: int) -> None:
+def search(S: State, A: State, stage: int) -> None:
     """FE and the first stage of HM: on at SP until the home input changes, then a stop at DC."""
-    S[b + SLEW_V] = S[b + SPEED_V] * S[b + DIRECTION]
-    if S[b + HOME_LEVEL] != S[b + STAGE_LEVEL]:
-        S[b + MODE] = MODE_STOPPING
-        S[b + STOP_CODE] = 9.0 if stage == STAGE_EDGE else 10.0
+    A[SLEW_V] = A[SPEED_V] * A[DIRECTION]
+    if A[HOME_LEVEL] != A[STAGE_LEVEL]:
+        A[MODE] = MODE_STOPPING
+        A[STOP_CODE] = 9.0 if stage == STAGE_EDGE else 10.0
         if stage == STAGE_EDGE:
-            S[b + STAGE] = STAGE_NONE
-            raise_event(S, b, EVENT_HOMED)
+            A[STAGE] = STAGE_NONE
+            raise_event(S, A, EVENT_HOMED)
         else:
-            S[b + STAGE] = STAGE_HOME_STOP
+            A[STAGE] = STAGE_HOME_STOP
 
 
-def find_index(S: State, b: int) -> None:
+def find_index(S: State, A: State) -> None:
     """FI: the place of the pulse becomes 0 while the axis goes on to stop at DC."""
-    place = index_passed(S, b)
+    place = index_passed(A)
     if place != NOWHERE:
-        zero_at(S, b, place)
-        S[b + MODE] = MODE_STOPPING
-        S[b + STAGE] = STAGE_NONE
-        S[b + STOP_CODE] = 10.0
-        raise_event(S, b, EVENT_HOMED)
+        zero_at(A, place)
+        A[MODE] = MODE_STOPPING
+        A[STAGE] = STAGE_NONE
+        A[STOP_CODE] = 10.0
+        raise_event(S, A, EVENT_HOMED)
 
 
-def leave_switch(S: State, b: int) -> None:
+def leave_switch(S: State, A: State) -> None:
     """HM stage 2: back to the edge; forward it runs on into stage 3, in reverse it stops at once."""
-    if S[b + HOME_LEVEL] == S[b + STAGE_LEVEL]:
+    if A[HOME_LEVEL] == A[STAGE_LEVEL]:
         return
-    if S[b + STEPPER] != 0.0:
-        homed(S, b, S[b + RAW])
-    elif S[b + SLEW_V] > 0.0:
-        S[b + STAGE] = STAGE_HOME_INDEX
+    if A[STEPPER] != 0.0:
+        homed(S, A, A[RAW])
+    elif A[SLEW_V] > 0.0:
+        A[STAGE] = STAGE_HOME_INDEX
     else:
-        creep(S, b, STAGE_HOME_INDEX, 1.0)
+        creep(A, STAGE_HOME_INDEX, 1.0)
 
 
-def arrive(S: State, b: int) -> None:
+def arrive(S: State, A: State) -> None:
     """HM stage 3: the index pulse is position 0, and the axis is commanded there at once."""
-    place = index_passed(S, b)
+    place = index_passed(A)
     if place != NOWHERE:
-        homed(S, b, place)
+        homed(S, A, place)
 
 
-def advance_stage(S: State, b: int) -> None:
+def advance_stage(S: State, A: State) -> None:
     """Looks whether a homing stage has reached what it looks for; before the profile of the same sample."""
-    stage = int(S[b + STAGE])
+    stage = int(A[STAGE])
     if stage in (STAGE_EDGE, STAGE_HOME_SEARCH):
-        search(S, b, stage)
+        search(S, A, stage)
     elif stage == STAGE_INDEX:
-        find_index(S, b)
+        find_index(S, A)
     elif stage == STAGE_HOME_STOP:
-        if S[b + MODE] == MODE_IDLE:
-            creep(S, b, STAGE_HOME_BACK, -S[b + DIRECTION])
+        if A[MODE] == MODE_IDLE:
+            creep(A, STAGE_HOME_BACK, -A[DIRECTION])
     elif stage == STAGE_HOME_BACK:
-        leave_switch(S, b)
+        leave_switch(S, A)
     elif stage == STAGE_HOME_INDEX:
-        arrive(S, b)
+        arrive(S, A)

@@ -16,7 +16,6 @@ from device.simulator.kernel.layout import (
     AUXILIARY_SHIFT,
     AUXILIARY_SIGN,
     AUXILIARY_SOURCE,
-    AXIS,
     COUNTS,
     COUNTS_BEFORE,
     COUNTS_SHIFT,
@@ -66,9 +65,9 @@ from device.simulator.kernel.layout import (
     STAGE,
     STAGE_NONE,
     STOP_CODE,
-    STRIDE,
     VELOCITY_V,
     State,
+    part,
 )
 from device.simulator.kernel.profile import freeze
 
@@ -83,118 +82,117 @@ def uniform(S: State) -> float:
     return S[RANDOM] / MODULUS
 
 
-def read_encoders(S: State, b: int, axis: int, moment: int) -> None:
+def read_encoders(S: State, A: State, axis: int, moment: int) -> None:
     """Latches main and auxiliary encoder."""
-    x = S[b + LOAD_X] if S[b + MAIN_ON_LOAD] != 0.0 else S[b + MOTOR_X]
-    noise = S[b + NOISE]
+    x = A[LOAD_X] if A[MAIN_ON_LOAD] != 0.0 else A[MOTOR_X]
+    noise = A[NOISE]
     if noise > 0.0:
         x += (uniform(S) + uniform(S) + uniform(S) + uniform(S) - 2.0) * ROOT_OF_THREE * noise
-    S[b + RAW_LAST] = S[b + RAW]
+    A[RAW_LAST] = A[RAW]
     raw = float(floor(x + 0.5))
-    S[b + RAW] = raw
-    counts = raw * S[b + ENCODER_SIGN]
-    if S[b + ANALOG_FEEDBACK] != 0.0:
+    A[RAW] = raw
+    counts = raw * A[ENCODER_SIGN]
+    if A[ANALOG_FEEDBACK] != 0.0:
         counts = float(floor(S[ANALOG_1 + axis] * 204.8 + 0.5))
-    S[b + COUNTS] = counts
-    S[b + ACTUAL] = counts + S[b + COUNTS_SHIFT]
-    S[b + COUNTS_BEFORE] = S[b + HISTORY + moment]
-    S[b + HISTORY + moment] = counts
-    source = S[b + AUXILIARY_SOURCE]
+    A[COUNTS] = counts
+    A[ACTUAL] = counts + A[COUNTS_SHIFT]
+    A[COUNTS_BEFORE] = A[HISTORY + moment]
+    A[HISTORY + moment] = counts
+    source = A[AUXILIARY_SOURCE]
     if source == 0.0:
-        other = S[b + MOTOR_X]
+        other = A[MOTOR_X]
     elif source == 1.0:
-        other = S[b + LOAD_X]
+        other = A[LOAD_X]
     else:
-        other = S[b + OUTSIDE_X]
+        other = A[OUTSIDE_X]
     if source != 2.0:
-        other *= S[b + AUXILIARY_RATIO]
-    S[b + AUXILIARY_COUNTS] = S[b + AUXILIARY_SIGN] * floor(other + 0.5)
-    S[b + AUXILIARY] = S[b + AUXILIARY_COUNTS] + S[b + AUXILIARY_SHIFT]
+        other *= A[AUXILIARY_RATIO]
+    A[AUXILIARY_COUNTS] = A[AUXILIARY_SIGN] * floor(other + 0.5)
+    A[AUXILIARY] = A[AUXILIARY_COUNTS] + A[AUXILIARY_SHIFT]
 
 
-def read_switches(S: State, b: int) -> None:
+def read_switches(A: State) -> None:
     """Levels of home and limit inputs: low where the machine or the outside pulls them low."""
-    x = S[b + LOAD_X]
-    S[b + HOME_LEVEL] = 0.0 if S[b + HOME_FROM] <= x <= S[b + HOME_TO] else S[b + HOME_FORCED]
-    S[b + FORWARD_LEVEL] = 0.0 if x > S[b + FORWARD_SWITCH] else S[b + FORWARD_FORCED]
-    S[b + REVERSE_LEVEL] = 0.0 if x < S[b + REVERSE_SWITCH] else S[b + REVERSE_FORCED]
+    x = A[LOAD_X]
+    A[HOME_LEVEL] = 0.0 if A[HOME_FROM] <= x <= A[HOME_TO] else A[HOME_FORCED]
+    A[FORWARD_LEVEL] = 0.0 if x > A[FORWARD_SWITCH] else A[FORWARD_FORCED]
+    A[REVERSE_LEVEL] = 0.0 if x < A[REVERSE_SWITCH] else A[REVERSE_FORCED]
 
 
-def raise_event(S: State, b: int, bit: int) -> None:
+def raise_event(S: State, A: State, bit: int) -> None:
     """Adds an event bit to the axis' word; the loop returns after this sample."""
-    word = int(S[b + EVENT])
+    word = int(A[EVENT])
     if word & bit == 0:
-        S[b + EVENT] = word | bit
+        A[EVENT] = word | bit
     S[EVENTS] += 1.0
 
 
-def forward_blocked(S: State, b: int) -> bool:
+def forward_blocked(A: State) -> bool:
     """The forward switch is active or FL is passed."""
-    return S[b + FORWARD_LEVEL] == S[b + LIMIT_ACTIVE_LEVEL] or S[b + REFERENCE] > S[b + FORWARD_SOFT]
+    return A[FORWARD_LEVEL] == A[LIMIT_ACTIVE_LEVEL] or A[REFERENCE] > A[FORWARD_SOFT]
 
 
-def reverse_blocked(S: State, b: int) -> bool:
+def reverse_blocked(A: State) -> bool:
     """The reverse switch is active or BL is passed."""
-    return S[b + REVERSE_LEVEL] == S[b + LIMIT_ACTIVE_LEVEL] or S[b + REFERENCE] < S[b + REVERSE_SOFT]
+    return A[REVERSE_LEVEL] == A[LIMIT_ACTIVE_LEVEL] or A[REFERENCE] < A[REVERSE_SOFT]
 
 
-def heading(S: State, b: int) -> float:
+def heading(A: State) -> float:
     """The sign of where the axis is being driven: its commanded speed, or its intent while that is 0."""
-    v = S[b + VELOCITY_V]
+    v = A[VELOCITY_V]
     if v == 0.0:
-        mode = S[b + MODE]
+        mode = A[MODE]
         if mode == MODE_POSITION:
-            v = S[b + DIRECTION]
+            v = A[DIRECTION]
         elif mode == MODE_JOG:
-            v = S[b + JOG_V] if S[b + STAGE] == STAGE_NONE else S[b + SLEW_V]
+            v = A[JOG_V] if A[STAGE] == STAGE_NONE else A[SLEW_V]
     return v
 
 
-def check_limits(S: State, b: int) -> None:
+def check_limits(S: State, A: State) -> None:
     """Stops an axis that is driven into an active limit; the event is raised when that begins."""
     now = 0.0
-    if S[b + MODE] != MODE_IDLE:
-        way = heading(S, b)
-        if way > 0.0 and forward_blocked(S, b):
+    if A[MODE] != MODE_IDLE:
+        way = heading(A)
+        if way > 0.0 and forward_blocked(A):
             now = 1.0
-        elif way < 0.0 and reverse_blocked(S, b):
+        elif way < 0.0 and reverse_blocked(A):
             now = 2.0
-    if now != 0.0 and now != S[b + LIMIT_NOW]:
-        raise_event(S, b, EVENT_FORWARD_LIMIT if now == 1.0 else EVENT_REVERSE_LIMIT)
-        S[b + STOP_CODE] = now + 1.0
-        S[b + GEAR_RATIO] = 0.0
-        S[b + STAGE] = STAGE_NONE
-        mode = S[b + MODE]
+    if now != 0.0 and now != A[LIMIT_NOW]:
+        raise_event(S, A, EVENT_FORWARD_LIMIT if now == 1.0 else EVENT_REVERSE_LIMIT)
+        A[STOP_CODE] = now + 1.0
+        A[GEAR_RATIO] = 0.0
+        A[STAGE] = STAGE_NONE
+        mode = A[MODE]
         if mode in (MODE_POSITION, MODE_JOG, MODE_CONTOUR):
-            S[b + MODE] = MODE_STOPPING
-    S[b + LIMIT_NOW] = now
+            A[MODE] = MODE_STOPPING
+    A[LIMIT_NOW] = now
 
 
-def check_gear_limits(S: State, b: int, before: float) -> None:
+def check_gear_limits(S: State, A: State, before: float) -> None:
     """Gearing ends when it drives the axis into an active limit."""
-    if S[b + GEAR_RATIO] == 0.0 or S[b + LIMIT_NOW] != 0.0:
+    if A[GEAR_RATIO] == 0.0 or A[LIMIT_NOW] != 0.0:
         return
-    change = S[b + REFERENCE] - before
-    if change > 0.0 and forward_blocked(S, b):
-        S[b + GEAR_RATIO] = 0.0
-        S[b + STOP_CODE] = 2.0
-        raise_event(S, b, EVENT_FORWARD_LIMIT)
-    elif change < 0.0 and reverse_blocked(S, b):
-        S[b + GEAR_RATIO] = 0.0
-        S[b + STOP_CODE] = 3.0
-        raise_event(S, b, EVENT_REVERSE_LIMIT)
+    change = A[REFERENCE] - before
+    if change > 0.0 and forward_blocked(A):
+        A[GEAR_RATIO] = 0.0
+        A[STOP_CODE] = 2.0
+        raise_event(S, A, EVENT_FORWARD_LIMIT)
+    elif change < 0.0 and reverse_blocked(A):
+        A[GEAR_RATIO] = 0.0
+        A[STOP_CODE] = 3.0
+        raise_event(S, A, EVENT_REVERSE_LIMIT)
 
 
 def check_abort(S: State, axes: int) -> None:
     """The abort input going low freezes every axis in this sample; with OE 1 it also switches the axis off."""
     if S[ABORT_LEVEL] == 0.0 and S[ABORT_SEEN] == 0.0:
-        b = AXIS
-        for _ in range(axes):
-            if S[b + MOVING] != 0.0:
-                S[b + STOP_CODE] = 6.0
-            freeze(S, b)
-            if S[b + OFF_ON_ERROR] != 0.0:
-                S[b + MOTOR_ON] = 0.0
-            raise_event(S, b, EVENT_ABORT)
-            b += STRIDE
+        for axis in range(axes):
+            A = part(S, axis)
+            if A[MOVING] != 0.0:
+                A[STOP_CODE] = 6.0
+            freeze(A)
+            if A[OFF_ON_ERROR] != 0.0:
+                A[MOTOR_ON] = 0.0
+            raise_event(S, A, EVENT_ABORT)
     S[ABORT_SEEN] = 1.0 - S[ABORT_LEVEL]

@@ -282,6 +282,11 @@ def axis_base(axis: int) -> int:
     return AXIS + STRIDE * axis
 
 
+def part(S: State, axis: int) -> State:
+    """The slots of one axis, over the same memory."""
+    return S[AXIS + STRIDE * axis : AXIS + STRIDE * axis + STRIDE]
+
+
 def trace_columns(axes: int) -> int:
     """Floats in one trace row: sample, four an axis, inputs, outputs."""
     return TRACE_EXTRA + TRACE_COLUMNS_PER_AXIS * axes

@@ -18,7 +18,6 @@ from device.simulator.kernel.inputs import (
 from device.simulator.kernel.layout import (
     ACTUAL,
     AXES,
-    AXIS,
     COMMAND,
     ENCODER_SIGN,
     EVENTS,
@@ -31,13 +30,13 @@ from device.simulator.kernel.layout import (
     REFERENCE,
     SAMPLE,
     STAGE,
-    STRIDE,
     TRACE_CAPACITY,
     TRACE_COUNTDOWN,
     TRACE_EVERY,
     TRACE_ROWS,
     TRIPS,
     State,
+    part,
 )
 from device.simulator.kernel.plant import advance_plant
 from device.simulator.kernel.profile import advance_profile, follow_gear, smooth
@@ -49,14 +48,13 @@ def write_trace(S: State, trace: State, axes: int) -> None:
     place = int(S[TRACE_ROWS]) * (3 + 4 * axes)
     trace[place] = S[SAMPLE]
     place += 1
-    b = AXIS
-    for _ in range(axes):
-        trace[place] = S[b + REFERENCE]
-        trace[place + 1] = S[b + ACTUAL]
-        trace[place + 2] = (S[b + LOAD_V] if S[b + MAIN_ON_LOAD] != 0.0 else S[b + MOTOR_V]) * S[b + ENCODER_SIGN]
-        trace[place + 3] = S[b + COMMAND]
+    for axis in range(axes):
+        A = part(S, axis)
+        trace[place] = A[REFERENCE]
+        trace[place + 1] = A[ACTUAL]
+        trace[place + 2] = (A[LOAD_V] if A[MAIN_ON_LOAD] != 0.0 else A[MOTOR_V]) * A[ENCODER_SIGN]
+        trace[place + 3] = A[COMMAND]
         place += 4
-        b += STRIDE
     trace[place] = S[INPUTS]
     trace[place + 1] = S[OUTPUTS]
     S[TRACE_ROWS] += 1.0
@@ -64,37 +62,33 @@ def write_trace(S: State, trace: State, axes: int) -> None:
 
 def profiles(S: State, axes: int) -> None:
     """The profile stage of all axes."""
-    b = AXIS
-    for _ in range(axes):
-        check_limits(S, b)
-        if S[b + STAGE] != 0.0:
-            advance_stage(S, b)
-        advance_profile(S, b)
-        b += STRIDE
-    b = AXIS
-    for _ in range(axes):
-        before = S[b + REFERENCE]
-        if S[b + GEAR_MASTER] >= 0.0:
-            follow_gear(S, b)
-        smooth(S, b)
-        check_gear_limits(S, b, before)
-        b += STRIDE
+    for axis in range(axes):
+        A = part(S, axis)
+        check_limits(S, A)
+        if A[STAGE] != 0.0:
+            advance_stage(S, A)
+        advance_profile(A)
+    for axis in range(axes):
+        A = part(S, axis)
+        before = A[REFERENCE]
+        if A[GEAR_MASTER] >= 0.0:
+            follow_gear(S, A)
+        smooth(A)
+        check_gear_limits(S, A, before)
 
 
 def sample(S: State, axes: int, moment: int) -> None:
     """One sample of everything but the trippoints."""
-    b = AXIS
     for axis in range(axes):
-        read_encoders(S, b, axis, moment)
-        read_switches(S, b)
-        b += STRIDE
+        A = part(S, axis)
+        read_encoders(S, A, axis, moment)
+        read_switches(A)
     check_abort(S, axes)
     profiles(S, axes)
-    b = AXIS
-    for _ in range(axes):
-        servo(S, b)
-        advance_plant(S, b)
-        b += STRIDE
+    for axis in range(axes):
+        A = part(S, axis)
+        servo(S, A)
+        advance_plant(S, A)
 
 
 def run(S: State, trace: State, n: int) -> int:
@@ -109,10 +103,9 @@ def run(S: State, trace: State, n: int) -> int:
         count += 1
         done += 1
         S[SAMPLE] = float(count)
-        b = AXIS
-        for _ in range(axes):
-            measure(S, b)
-            b += STRIDE
+        for axis in range(axes):
+            A = part(S, axis)
+            measure(A)
         test_watches(S)
         if S[TRACE_CAPACITY] > 0.0:
             S[TRACE_COUNTDOWN] -= 1.0

@@ -56,60 +56,60 @@ def clamp(value: float, limit: float) -> float:
     return value
 
 
-def watch_error(S: State, b: int) -> None:
+def watch_error(S: State, A: State) -> None:
     """|TE| above ER is an event; with OE 1 it switches the axis off."""
-    high = 1.0 if abs(S[b + ERROR]) > S[b + ERROR_LIMIT] else 0.0
+    high = 1.0 if abs(A[ERROR]) > A[ERROR_LIMIT] else 0.0
     if high != 0.0:
-        if S[b + ERROR_HIGH] == 0.0:
-            raise_event(S, b, EVENT_ERROR)
-        if S[b + OFF_ON_ERROR] != 0.0 and S[b + MOTOR_ON] != 0.0:
-            freeze(S, b)
-            S[b + MOTOR_ON] = 0.0
-            S[b + STOP_CODE] = 8.0
-            raise_event(S, b, EVENT_OFF)
-    S[b + ERROR_HIGH] = high
+        if A[ERROR_HIGH] == 0.0:
+            raise_event(S, A, EVENT_ERROR)
+        if A[OFF_ON_ERROR] != 0.0 and A[MOTOR_ON] != 0.0:
+            freeze(A)
+            A[MOTOR_ON] = 0.0
+            A[STOP_CODE] = 8.0
+            raise_event(S, A, EVENT_OFF)
+    A[ERROR_HIGH] = high
 
 
-def filter_error(S: State, b: int, error: float, derivative_error: float) -> float:
+def filter_error(A: State, error: float, derivative_error: float) -> float:
     """Volts of the filter with offset and feed-forwards, before the torque limit."""
-    limit = S[b + INTEGRATOR_LIMIT]
-    integral = S[b + INTEGRAL]
-    if limit >= 0.0 or S[b + MOVING] == 0.0:
-        integral = clamp(integral + 0.5 * S[b + KI] * error * VOLTS, abs(limit))
-        S[b + INTEGRAL] = integral
-    volts = (4.0 * S[b + KP] * error + 4.0 * S[b + KD] * (derivative_error - S[b + LAST_ERROR])) * VOLTS + integral
-    velocity = S[b + COMMANDED_V]
-    volts += S[b + OFFSET] + VELOCITY_VOLTS * S[b + VELOCITY_FEED] * velocity
-    acceleration = (velocity - S[b + COMMANDED_LAST_V]) * 1024.0
-    return volts + ACCELERATION_VOLTS * S[b + ACCELERATION_FEED] * acceleration
+    limit = A[INTEGRATOR_LIMIT]
+    integral = A[INTEGRAL]
+    if limit >= 0.0 or A[MOVING] == 0.0:
+        integral = clamp(integral + 0.5 * A[KI] * error * VOLTS, abs(limit))
+        A[INTEGRAL] = integral
+    volts = (4.0 * A[KP] * error + 4.0 * A[KD] * (derivative_error - A[LAST_ERROR])) * VOLTS + integral
+    velocity = A[COMMANDED_V]
+    volts += A[OFFSET] + VELOCITY_VOLTS * A[VELOCITY_FEED] * velocity
+    acceleration = (velocity - A[COMMANDED_LAST_V]) * 1024.0
+    return volts + ACCELERATION_VOLTS * A[ACCELERATION_FEED] * acceleration
 
 
-def step_output(S: State, b: int) -> None:
+def step_output(A: State) -> None:
     """The stepper's pulse output: RP behind the KS filter; pulses cost no volts."""
-    lag = S[b + SMOOTHED] - S[b + STEPS_SMOOTH]
-    S[b + STEPS_SMOOTH] += S[b + STEP_FILTER] * lag
-    if abs(S[b + SMOOTHED] - S[b + STEPS_SMOOTH]) < 0.5 and S[b + MOVING] == 0.0:
-        S[b + STEPS_SMOOTH] = S[b + SMOOTHED]
-    S[b + STEPS] = float(floor(S[b + STEPS_SMOOTH] + 0.5))
-    S[b + ERROR] = 0.0
-    S[b + COMMAND] = 0.0
+    lag = A[SMOOTHED] - A[STEPS_SMOOTH]
+    A[STEPS_SMOOTH] += A[STEP_FILTER] * lag
+    if abs(A[SMOOTHED] - A[STEPS_SMOOTH]) < 0.5 and A[MOVING] == 0.0:
+        A[STEPS_SMOOTH] = A[SMOOTHED]
+    A[STEPS] = float(floor(A[STEPS_SMOOTH] + 0.5))
+    A[ERROR] = 0.0
+    A[COMMAND] = 0.0
 
 
-def servo(S: State, b: int) -> None:
+def servo(S: State, A: State) -> None:
     """One sample of the filter; its output acts in this sample."""
-    if S[b + STEPPER] != 0.0:
-        step_output(S, b)
+    if A[STEPPER] != 0.0:
+        step_output(A)
         return
-    error = S[b + REFERENCE] - S[b + ACTUAL]
-    S[b + ERROR] = error
-    watch_error(S, b)
+    error = A[REFERENCE] - A[ACTUAL]
+    A[ERROR] = error
+    watch_error(S, A)
     derivative_error = error
-    if S[b + DUAL_LOOP] != 0.0:
-        derivative_error = S[b + REFERENCE] - S[b + AUXILIARY]
-    if S[b + MOTOR_ON] != 0.0:
-        volts = filter_error(S, b, error, derivative_error)
+    if A[DUAL_LOOP] != 0.0:
+        derivative_error = A[REFERENCE] - A[AUXILIARY]
+    if A[MOTOR_ON] != 0.0:
+        volts = filter_error(A, error, derivative_error)
     else:
-        volts = S[b + OFFSET]
-        S[b + INTEGRAL] = 0.0
-    S[b + LAST_ERROR] = derivative_error
-    S[b + COMMAND] = clamp(volts, S[b + TORQUE_LIMIT]) * S[b + OUTPUT_SIGN]
+        volts = A[OFFSET]
+        A[INTEGRAL] = 0.0
+    A[LAST_ERROR] = derivative_error
+    A[COMMAND] = clamp(volts, A[TORQUE_LIMIT]) * A[OUTPUT_SIGN]
