@@ -41,7 +41,7 @@ def state(simulation: Simulation) -> dict[str, Any]:
 
 
 def error_output(simulation: Simulation) -> bool:
-    """The ERROR output: on while an axis is beyond its error limit or the reset is active (dmc-1412-1414.txt l.1182)."""
+    """The ERROR output: an axis beyond its error limit, or reset active (dmc-1412-1414.txt l.1182)."""
     motion = simulation.unit.motion
     return simulation.unit.state.reset_at >= 0 or any(motion.error_exceeded(axis) for axis in simulation.unit.axes())
 

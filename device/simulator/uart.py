@@ -32,6 +32,7 @@ class Uart:
     sent: bytearray = field(default_factory=bytearray)
     host_ready: bool = True  # RTS: the host takes characters
     stopped: bool = False  # the host sent XOFF
+    history: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # tick, character clocked in
 
     # ------------------------------------------------------------ host's side
 
@@ -129,6 +130,7 @@ class Uart:
         assert self.incoming_end is not None
         self.line_free = self.incoming_end
         byte = self.line.popleft()
+        self.history.append((-(-self.line_free // (self.baud or 1)), byte))
         if len(self.buffer) < self.receive_size:
             self.buffer.append(byte)
         else:

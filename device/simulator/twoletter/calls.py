@@ -11,35 +11,24 @@ from codegen.twoletter.evaluate import compile_expression, constant
 from codegen.twoletter.nodes import (
     Argument,
     Axes,
-    Binary,
     Command,
-    Element,
     Empty,
     Format,
-    Function,
-    Group,
-    Keyword,
-    Negative,
-    Number,
-    Operand,
     Query,
-    String,
-    Variable,
 )
 from codegen.twoletter.rows import Row, Takes
 from device.simulator.twoletter import behaviour
 from device.simulator.twoletter.behaviour import not_simulated, registers
-from device.simulator.twoletter.state import AXES, CommandError, Port, Thread
+from device.simulator.twoletter.state import AXES, CommandError, Strand
+from device.simulator.twoletter.values import VALUES
 
 if TYPE_CHECKING:
     from codegen.twoletter.evaluate import Names
     from device.simulator.twoletter.compile import Code
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 
-VALUES: Final = (Number, String, Variable, Element, Operand, Keyword, Function, Negative, Binary, Group)
 PER_AXIS: Final = frozenset({Takes.AXIS_NUMBERS, Takes.ONE_AXIS_NUMBER})
 LETTERS: Final = frozenset({Takes.AXES, Takes.AXES_S, Takes.AXES_OR_ONE, Takes.AXIS})
 
@@ -129,9 +118,9 @@ def refuse(code: int, unit: Unit, name: str) -> Op:
 
 def places(command: Command) -> list[Argument]:
     """The numbers of a command by place; the form PRX=5 puts its one number at the axis."""
-    found = [argument for argument in command.arguments if not isinstance(argument, Axes | Format)]
+    found: list[Argument] = [item for item in command.arguments if not isinstance(item, Axes | Format)]
     if command.axis is not None:
-        return [Empty()] * AXES.index(command.axis) + found[:1]
+        return [*([Empty()] * AXES.index(command.axis)), *found[:1]]
     return found
 
 

@@ -24,12 +24,11 @@ from codegen.twoletter.nodes import (
 from codegen.twoletter.parse import parse_line
 from device.simulator.twoletter import memory
 from device.simulator.twoletter.calls import command_op
-from device.simulator.twoletter.state import CommandError, Port, Thread
+from device.simulator.twoletter.state import CommandError, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 
 __all__ = ["Code", "Op", "compile_line", "compile_program"]
@@ -73,7 +72,7 @@ def compile_program(lines: tuple[str, ...], unit: Unit) -> Code:
 
 def compile_line(text: str, unit: Unit) -> list[Op]:
     """A line from a port; each op is one prompt."""
-    found = [statement for statement in parse_line(text).statements if not isinstance(statement, Nothing)]
+    found: list[Statement] = [item for item in parse_line(text).statements if not isinstance(item, Nothing)]
     found = found or [Nothing()]
     return [
         compile_statement(statement, index + 1, unit, None, from_port=True) for index, statement in enumerate(found)

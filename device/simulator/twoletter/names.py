@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from codegen.twoletter.fixed import ONE, string_value
 from codegen.twoletter.evaluate import EvaluationError
+from codegen.twoletter.fixed import ONE, string_value
 from device.simulator.twoletter import behaviour
 from device.simulator.twoletter.behaviour import registers
 from device.simulator.twoletter.state import AXES

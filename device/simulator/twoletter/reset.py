@@ -23,7 +23,7 @@ def power_up(unit: Unit) -> None:
 def begin(unit: Unit) -> None:
     """Motion and programs end at once, outputs and ports are cleared."""
     unit.halt_all()
-    for strand in (*unit.state.threads, *unit.state.ports):
+    for strand in unit.state.strands():
         unit.drop(strand.wait)
         strand.wait = None
     for port in unit.state.ports:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Final, TypeAlias
 
 from codegen.models import Model
 
@@ -83,6 +83,10 @@ class Port:
     running: bool = False  # for the scheduler: ports are never threads
 
 
+Strand: TypeAlias = Thread | Port
+"""Whatever has commands carried out for it."""
+
+
 @dataclass(slots=True)
 class Download:
     """A download under way: of a program (`array` empty) or of an array."""
@@ -126,6 +130,10 @@ class State:
     command_at: int = -1  # tick at which the command in the interpreter is done; -1: none
     busy_until: int = 0  # tick until which the EEPROM is written and nothing else is done
     reset_at: int = -1  # tick at which a reset is over; -1: none under way
+
+    def strands(self) -> list[Strand]:
+        """Threads, then ports."""
+        return [*self.threads, *self.ports]
 
 
 def fresh(model: Model) -> State:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 from codegen.twoletter.evaluate import EvaluationError
 from device.simulator.times import COMMAND
 from device.simulator.twoletter import wire
-from device.simulator.twoletter.state import FOREVER, CommandError, Port, Thread, Wait
+from device.simulator.twoletter.state import FOREVER, CommandError, Port, Strand, Thread, Wait
 from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 MC_TIMEOUT = 99  # stop code
 
 
@@ -69,7 +66,7 @@ class Interpreter:
         due = state.reset_at if state.reset_at >= 0 else FOREVER
         for uart in unit.uarts:
             due = min(due, uart.due_in())
-        for strand in (*state.threads, *state.ports):
+        for strand in state.strands():
             wait = strand.wait
             if wait is not None:
                 due = min(due, wait.wake)
@@ -87,7 +84,7 @@ class Interpreter:
             uart.run(now)
             if uart.buffer or uart.overruns:
                 wire.take_characters(unit, port)
-        for strand in (*state.threads, *state.ports):
+        for strand in state.strands():
             wait = strand.wait
             if wait is not None and (wait.wake <= now or (wait.kind == "output" and self._has_room(wait))):
                 self.release(strand)
@@ -261,7 +258,7 @@ class Interpreter:
         """Whether the motion can end a wait or call a routine, so that it must keep up with the commands."""
         unit = self.unit
         state = unit.state
-        for strand in (*state.threads, *state.ports):
+        for strand in state.strands():
             if strand.wait is not None and strand.wait.watches:
                 return True
         if unit.routines and state.threads[0].running:
@@ -276,7 +273,7 @@ class Interpreter:
         """Ends waits whose watches have tripped and calls routines; True when anything happened."""
         unit = self.unit
         motion, happened = unit.clock.motion, False
-        for strand in (*unit.state.threads, *unit.state.ports):
+        for strand in unit.state.strands():
             wait = strand.wait
             if wait is not None and wait.watches and all(motion.tripped(watch) for watch in wait.watches):
                 self.release(strand)

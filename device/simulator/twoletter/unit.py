@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
-
-from codegen.twoletter.problems import ERROR_TEXTS
+from typing import TYPE_CHECKING
 
 from codegen.models import Model
 from codegen.twoletter.fixed import places, string_text
 from codegen.twoletter.format import format_number
 from codegen.twoletter.nodes import Format
+from codegen.twoletter.problems import ERROR_TEXTS
 from device.simulator.eeprom import Eeprom
 from device.simulator.motion import Motion
 from device.simulator.times import TICKS_PER_MS
@@ -20,13 +19,12 @@ from device.simulator.twoletter.compile import Code, Op, compile_line, compile_p
 from device.simulator.twoletter.names import SimulatedNames
 from device.simulator.twoletter.profile import Profile
 from device.simulator.twoletter.records import Records
-from device.simulator.twoletter.state import CommandError, Frame, Port, Thread, Wait, fresh
+from device.simulator.twoletter.state import CommandError, Frame, Port, Strand, Thread, Wait, fresh
 from device.simulator.uart import Uart
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.state import State
 
-Strand: TypeAlias = Thread | Port
 
 UNSIGNED = frozenset({"TC", "TS", "TB", "SC", "TI"})  # replies without a sign column (inferred)
 RETURN = b"\r\n"
@@ -85,7 +83,7 @@ class Unit:
         """TM: the next sample comes a new period after the last; waits in samples follow."""
         self.motion  # noqa: B018  every sample up to now is taken with the old period
         self.clock.set_period(period)
-        for strand in (*self.state.threads, *self.state.ports):
+        for strand in self.state.strands():
             if strand.wait is not None and strand.wait.sample >= 0:
                 strand.wait.wake = max(self.clock.now, self.clock.tick_of(strand.wait.sample))
         self.changed = True
@@ -120,6 +118,8 @@ class Unit:
         for frame in thread.stack:
             self.drop(frame.wait)
         line = self.code.line(thread.pc) if thread.running else thread.line
+        if thread.running and self.records.on_trace is not None:
+            self.records.on_trace(self.clock.now, number, -1)
         self.state.threads[number] = Thread(number, pc=thread.pc, line=line)
         self.changed = True
 

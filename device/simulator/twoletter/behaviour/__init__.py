@@ -1,4 +1,4 @@
-"""What the commands do, one group of commands a module: DOES act, READS compute, WAITS hold, COMPILES shape the flow."""
+"""What the commands do, one group of commands a module: DOES, READS, WAITS, COMPILES."""
 
 from __future__ import annotations
 
@@ -17,14 +17,13 @@ from device.simulator.twoletter.behaviour import (
     system,
     trippoints,
 )
-from device.simulator.twoletter.state import Port, Thread
+from device.simulator.twoletter.state import Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.compile import Code
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 
 DOES: Final[dict[str, Callable[[Unit, Strand, Call], None]]] = {

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from codegen.twoletter.fixed import ONE
 from codegen.twoletter.evaluate import compile_expression
+from codegen.twoletter.fixed import ONE
 from codegen.twoletter.nodes import Command, Dimension, Query
 from device.simulator.motion import Register
 from device.simulator.twoletter import memory
-from device.simulator.twoletter.state import CommandError, Port, Thread
+from device.simulator.twoletter.state import CommandError, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.compile import Code
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 COPYRIGHT: Final = "TWOLETTER STUDIO SIMULATED CONTROLLER"
 

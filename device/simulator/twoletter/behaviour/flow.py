@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from codegen.twoletter.fixed import ONE
 from codegen.twoletter.evaluate import compile_expression
-from codegen.twoletter.nodes import Command, Empty, Expression, Target
-from device.simulator.twoletter.state import CommandError, Frame, Port, Thread
+from codegen.twoletter.fixed import ONE
+from codegen.twoletter.nodes import Command, Expression, Target
+from device.simulator.twoletter.state import CommandError, Frame, Strand, Thread
+from device.simulator.twoletter.values import VALUES
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.compile import Code
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 UNDEFINED_LABEL, BAD_LINE, TOO_DEEP, OPERAND_ERROR = 10, 11, 12, 4
 
@@ -50,8 +50,8 @@ def _target(command: Command) -> Target:
 
 
 def _rest(command: Command) -> list[Expression]:
-    found = [argument for argument in command.arguments if not isinstance(argument, Target | Empty)]
-    return found  # type: ignore[return-value]  # the parser puts only expressions behind a target
+    """What stands behind the target: the parser leaves only expressions there."""
+    return [item for item in command.arguments if isinstance(item, VALUES)]
 
 
 def jump(command: Command, following: int, unit: Unit, code: Code | None) -> Op:
@@ -90,7 +90,7 @@ def call_subroutine(command: Command, following: int, unit: Unit, code: Code | N
 
 
 def _numbers(command: Command) -> list[Expression | None]:
-    return [None if isinstance(argument, Empty) else argument for argument in command.arguments]  # type: ignore[misc]
+    return [item if isinstance(item, VALUES) else None for item in command.arguments]
 
 
 def _flags(command: Command, unit: Unit) -> Callable[[], list[bool]]:

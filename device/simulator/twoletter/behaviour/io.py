@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import ONE
-from device.simulator.twoletter.state import CommandError, Port, Thread
+from device.simulator.twoletter.state import CommandError, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
-
-Strand: TypeAlias = Thread | Port
 
 
 def _set_output(unit: Unit, number: int, on: bool) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from codegen.twoletter.fixed import ONE, read_number, string_value
 from codegen.twoletter.evaluate import compile_expression
+from codegen.twoletter.fixed import ONE, read_number, string_value
 from codegen.twoletter.nodes import (
     Character,
     Command,
@@ -18,13 +18,12 @@ from codegen.twoletter.nodes import (
 )
 from codegen.twoletter.nodes import Port as PortItem
 from device.simulator.twoletter import memory
-from device.simulator.twoletter.state import CommandError, Port, Thread, Wait
+from device.simulator.twoletter.state import CommandError, Port, Strand, Wait
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.compile import Code
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 NOT_MAIN, NO_VARIABLE = 71, 25
 
@@ -61,7 +60,7 @@ def _piece(item: object, unit: Unit) -> Callable[[], str]:
         return lambda: character
     form = item.format if isinstance(item, Formatted) else None
     expression = item.expression if isinstance(item, Formatted) else item
-    value, names = compile_expression(expression), unit.names  # type: ignore[arg-type]  # the parser leaves expressions
+    value, names = compile_expression(expression), unit.names
     return lambda: unit.formatted(value(names), form)
 
 

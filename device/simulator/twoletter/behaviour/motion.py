@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import ONE
-from device.simulator.twoletter.state import CommandError, Port, Thread
+from device.simulator.twoletter.state import CommandError, Port, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 MOTOR_OFF, ALREADY_MOVING, AT_LIMIT, NO_SEQUENCE, BAD_INCREMENT = 20, 21, 22, 24, 16
 
 
@@ -81,7 +80,7 @@ def _prepare(mode: str) -> Callable[[Unit, Strand, Call], None]:
 
 
 def stop(unit: Unit, strand: Strand, call: Call) -> None:
-    """ST: with letters those axes; without, all motion, and programs as the family does it (dmc-1412-1414.txt l.2814)."""
+    """ST: the named axes; without letters all, and programs as the family does it (dmc-1412-1414.txt l.2814)."""
     for axis in call.axes:
         unit.motion.stop(axis)
     if call.named:
@@ -106,7 +105,7 @@ def _check_flag(call: Call) -> None:
 
 def increment(unit: Unit, strand: Strand, call: Call) -> None:
     """IP: standing like PR and BG; moving the target or the jog steps on (SSC manual l.2154)."""
-    for axis, value in _numbers(unit, call):
+    for axis, _ in _numbers(unit, call):
         if not unit.motion.moving(axis) and not unit.motion.motor_on(axis):
             raise CommandError(MOTOR_OFF)
     for axis, value in _numbers(unit, call):

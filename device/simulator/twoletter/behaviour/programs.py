@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from codegen.twoletter.fixed import ONE
 from codegen.twoletter.evaluate import compile_expression
+from codegen.twoletter.fixed import ONE
 from codegen.twoletter.nodes import Axes, Command, Dimension, Empty, Expression, Target
 from device.simulator.twoletter import editor, memory
-from device.simulator.twoletter.state import CommandError, Download, Port, Thread
+from device.simulator.twoletter.state import CommandError, Download, Port, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.compile import Code
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Op: TypeAlias = Callable[[Strand], int]
 RUNNING, BAD_LINE, UNDEFINED_ARRAY, NOT_FROM_PROGRAM = 17, 11, 82, 3
 RETURN: Final = b"\r\n"
@@ -110,7 +109,8 @@ def edit(command: Command, following: int, unit: Unit, code: Code | None) -> Op:
 
 
 def _array(command: Command, unit: Unit) -> tuple[str, list[Callable[[], int] | None]]:
-    name, numbers = "", []
+    name = ""
+    numbers: list[Callable[[], int] | None] = []
     for argument in command.arguments:
         if isinstance(argument, Dimension) and not name:
             name = argument.name

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from codegen.models import Model
-from codegen.twoletter.fixed import ONE, scaled
 from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.fixed import ONE, scaled
 from codegen.twoletter.rows import Takes
 from device.simulator.motion import Register
 from device.simulator.twoletter.state import CommandError, State

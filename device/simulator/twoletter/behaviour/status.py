@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, TypeAlias
-
-from codegen.twoletter.problems import ERROR_TEXTS, STOP_TEXTS
+from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import ONE
+from codegen.twoletter.problems import ERROR_TEXTS, STOP_TEXTS
 from device.simulator.twoletter import memory
 from device.simulator.twoletter.behaviour.motion import home_state
-from device.simulator.twoletter.state import CommandError, Port, Thread
+from device.simulator.twoletter.state import CommandError, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
-
-Strand: TypeAlias = Thread | Port
 
 
 def error_code(unit: Unit, strand: Strand, call: Call) -> None:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from device.simulator.twoletter import burned
-from device.simulator.twoletter.state import CommandError, Port, Thread, Wait
+from device.simulator.twoletter.state import CommandError, Port, Strand, Wait
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 PROGRAM_RUNS: Final = 17
 
 

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from codegen.twoletter.fixed import ONE
 from device.simulator.motion import Watch
-from device.simulator.twoletter.state import FOREVER, CommandError, Port, Thread, Wait
+from device.simulator.twoletter.state import FOREVER, CommandError, Strand, Wait
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
-Strand: TypeAlias = Thread | Port
 Waits: TypeAlias = Callable[["Unit", Strand, "Call"], Wait | None]
 
 

@@ -1,0 +1,77 @@
+"""`python -m device.simulator`: a simulated controller in real time, on a socket or a pseudo-terminal."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from codegen.models import MODELS, Model
+from device.simulator.eeprom import Eeprom, EepromUnreadable
+from device.simulator.plant import Plant
+from device.simulator.server import serve
+from device.simulator.simulation import Simulation
+
+
+class Unusable(Exception):
+    """An option that names an unusable file; the text is one sentence."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The options of a served simulator."""
+    parser.add_argument("--controller", default="ssc4", metavar="MODEL", help=" ".join(two_letter_models()))
+    parser.add_argument("--plant", type=Path, metavar="PLANT.toml", help="what is bolted to the controller")
+    parser.add_argument("--tcp", metavar="HOST:PORT", help="where to listen; port 0 picks one")
+    parser.add_argument("--pty", action="store_true", help="a pseudo-terminal instead of a socket")
+    parser.add_argument("--baud", type=int, metavar="N", help="pace the line to N baud")
+    parser.add_argument("--no-handshake", action="store_true", help="characters that come too fast are lost (error 5)")
+    parser.add_argument("--eeprom", type=Path, metavar="FILE", help="where burned data is kept")
+    parser.add_argument("--seed", type=int, default=0, help="of the encoder noise")
+    parser.add_argument("--control", action="store_true", help="take signal,value and state lines from standard input")
+
+
+def two_letter_models() -> list[str]:
+    return [name for name, model in MODELS.items() if model.family != "smartmotor"]
+
+
+def simulation_of(options: argparse.Namespace, model: Model) -> Simulation:
+    """The simulation the options describe."""
+    plants: Mapping[str, Plant] | None = None
+    if options.plant:
+        from device.simulator.plant_file import PlantUnreadable, load_plants
+
+        try:
+            plants = load_plants(options.plant)
+        except PlantUnreadable as reason:
+            raise Unusable(str(reason)) from reason
+    try:
+        eeprom = Eeprom(options.eeprom)
+    except EepromUnreadable as reason:
+        raise Unusable(str(reason)) from reason
+    return Simulation(model, plants, eeprom, baud=options.baud, seed=options.seed, handshake=not options.no_handshake)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Serves; 2 when the options are unusable."""
+    parser = argparse.ArgumentParser(prog="twoletter simulate", description=__doc__)
+    arguments(parser)
+    options = parser.parse_args(argv)
+    if options.controller not in two_letter_models():
+        print(f"twoletter: no controller {options.controller}; {' '.join(two_letter_models())}", file=sys.stderr)
+        return 2
+    try:
+        simulation = simulation_of(options, MODELS[options.controller])
+    except Unusable as reason:
+        print(f"twoletter: {reason}", file=sys.stderr)
+        return 2
+    try:
+        serve(simulation, pty=options.pty, tcp=options.tcp, control=options.control)
+    except OSError as reason:
+        print(f"twoletter: can not listen ({reason.strerror or reason})", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,45 @@
+"""Port 1 on a pseudo-terminal (not on Windows): any terminal program can open it as a serial device."""
+
+from __future__ import annotations
+
+import os
+import select
+
+
+class TerminalLine:
+    """The controller's side of a pseudo-terminal in raw mode; the other side is `address`."""
+
+    def __init__(self) -> None:
+        import pty
+        import tty
+
+        self._own, self._other = pty.openpty()
+        tty.setraw(self._other)
+        os.set_blocking(self._own, False)
+        self._pending = bytearray()
+        self.address = os.ttyname(self._other)
+
+    def wait(self, seconds: float, *, want: bool) -> None:
+        """Until there are characters (when they are wanted), or the time is over."""
+        watched = [self._own] if want else []
+        select.select(watched, [], [], max(0.0, seconds))
+
+    def read(self, most: int) -> bytes:
+        try:
+            return os.read(self._own, most)
+        except BlockingIOError:
+            return b""
+
+    def write(self, data: bytes) -> bool:
+        """Sends; False while nobody reads and the terminal's buffer is full."""
+        self._pending += data
+        if self._pending:
+            try:
+                del self._pending[: os.write(self._own, self._pending)]
+            except BlockingIOError:
+                return False
+        return not self._pending
+
+    def close(self) -> None:
+        os.close(self._own)
+        os.close(self._other)
