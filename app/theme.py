@@ -38,7 +38,9 @@ class Theme(QObject):
         """Light, dark, or whatever the system has."""
         self.choice = choice
         hints = self._application.styleHints()
-        wanted = {Choice.LIGHT: Qt.ColorScheme.Light, Choice.DARK: Qt.ColorScheme.Dark}.get(choice, Qt.ColorScheme.Unknown)
+        wanted = {Choice.LIGHT: Qt.ColorScheme.Light, Choice.DARK: Qt.ColorScheme.Dark}.get(
+            choice, Qt.ColorScheme.Unknown
+        )
         hints.setColorScheme(wanted)
         self._follow()
 
@@ -109,7 +111,11 @@ class NoWheel(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         from PySide6.QtWidgets import QAbstractSpinBox, QComboBox
 
-        if event.type() == QEvent.Type.Wheel and isinstance(watched, QAbstractSpinBox | QComboBox) and not watched.hasFocus():
+        if (
+            event.type() == QEvent.Type.Wheel
+            and isinstance(watched, QAbstractSpinBox | QComboBox)
+            and not watched.hasFocus()
+        ):
             event.ignore()
             return True
         return False

@@ -92,7 +92,9 @@ class DisplayPanel(Panel):
         controller = self.controller
         assert controller is not None
         self.io_control.setEnabled(controller.control)
-        self.io_control.setToolTip("Outputs switch when clicked." if controller.control else "Switch from Watch to Control first.")
+        self.io_control.setToolTip(
+            "Outputs switch when clicked." if controller.control else "Switch from Watch to Control first."
+        )
         if self.io_control.isChecked() != controller.io_control:
             self.io_control.setChecked(controller.io_control)
         allowed = controller.control and controller.io_control

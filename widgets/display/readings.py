@@ -85,11 +85,17 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
 
 
 def age_of(row: Row, key: str, now: float) -> str:
-    """"12 s old" when the value is older than it should be, else nothing."""
+    """ "12 s old" when the value is older than it should be, else nothing."""
     if not math.isfinite(row.value(key)) or not row.stale(key, now):
         return ""
     seconds = max(0.0, now - row.time(key))
-    return f"{seconds:.1f} s old" if seconds < 10 else f"{seconds:.0f} s old" if seconds < 120 else f"{seconds / 60:.0f} min old"
+    return (
+        f"{seconds:.1f} s old"
+        if seconds < 10
+        else f"{seconds:.0f} s old"
+        if seconds < 120
+        else f"{seconds / 60:.0f} min old"
+    )
 
 
 def bit(value: float, number: int) -> bool | None:

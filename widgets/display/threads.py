@@ -57,7 +57,7 @@ WAITS = {
 
 
 def thread_words(number: int, line: float, source: list[str]) -> str:
-    """"▲ Thread 0: line 4, waiting for an input (AI 1)"."""
+    """ "▲ Thread 0: line 4, waiting for an input (AI 1)"."""
     if not math.isfinite(line):
         return f"?  Thread {number}: not known"
     if line < 0:

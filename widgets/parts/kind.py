@@ -59,7 +59,12 @@ def _stripes(light: QColor, dark: QColor) -> QBrush:
     painter.setBrush(dark)
     for start in (-side, 0, side):
         painter.drawPolygon(
-            [QPointF(start, side), QPointF(start + side, 0), QPointF(start + side + side / 2, 0), QPointF(start + side / 2, side)]
+            [
+                QPointF(start, side),
+                QPointF(start + side, 0),
+                QPointF(start + side + side / 2, 0),
+                QPointF(start + side / 2, side),
+            ]
         )
     painter.end()
     tile.setDevicePixelRatio(scale)

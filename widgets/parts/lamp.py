@@ -90,7 +90,9 @@ class Lamp(QAbstractButton):
         room = rect.adjusted(0, 0, -width - 4, 0)
         painter.setPen(look().colour("stale" if self._stale else "text"))
         painter.drawText(
-            room, Qt.AlignmentFlag.AlignVCenter, painter.fontMetrics().elidedText(name, Qt.TextElideMode.ElideRight, int(room.width()))
+            room,
+            Qt.AlignmentFlag.AlignVCenter,
+            painter.fontMetrics().elidedText(name, Qt.TextElideMode.ElideRight, int(room.width())),
         )
 
     def _colour(self) -> QColor:

@@ -134,5 +134,3 @@ class StopButton(QAbstractButton):
         if self._state is StopState.NO_LINK:
             return look().colour("quiet")
         return look().colour("stop_text")
-
-

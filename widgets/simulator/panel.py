@@ -5,7 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDoubleSpinBox,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
 
 from device.api import Kind
 from widgets.panel import Panel
@@ -155,7 +167,9 @@ class SimulatorPanel(Panel):
             box.setValue(100)
             box.setSuffix(" counts")
             box.setAccessibleName(f"Push on {letter} in counts")
-            button.clicked.connect(lambda _=False, letter=letter, box=box: self.stimulus.emit(f"position_{letter.lower()}", box.value()))
+            button.clicked.connect(
+                lambda _=False, letter=letter, box=box: self.stimulus.emit(f"position_{letter.lower()}", box.value())
+            )
             grid.addWidget(QLabel(letter), row, 0)
             grid.addWidget(box, row, 1)
             grid.addWidget(button, row, 2)

@@ -1,0 +1,19 @@
+"""Version and licence, and the one sentence that everybody should have read."""
+
+from __future__ import annotations
+
+from importlib import metadata
+
+from widgets.connect.welcome import DANGER
+
+
+def about_words() -> str:
+    """The text of Help > About."""
+    try:
+        version = metadata.version("twoletter-studio")
+    except metadata.PackageNotFoundError:
+        version = "not installed"
+    return (
+        f"Version {version}. MIT licence.\n\n"
+        f"Programs, jogs and tunes one to four axes with controllers that speak two-letter code.\n\n{DANGER}"
+    )

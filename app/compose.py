@@ -1,0 +1,190 @@
+"""The only place that creates long-lived objects and joins them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QApplication
+
+from app.about import about_words
+from app.actions import MAIN, RUN, Actions
+from app.connection import Connection, Connector
+from app.crash import CrashHook
+from app.desk import Desk
+from app.files import Files
+from app.follow import Follow, Program
+from app.run import Run
+from app.search import Candidate, Search
+from app.session import Session
+from app.settings import Settings
+from app.start import Start
+from app.stop_key import StopKey
+from app.talk import Talk
+from app.theme import Choice, Theme
+from app.tick import Tick
+from app.window import BOTTOM, LEFT, RIGHT, Window
+from codegen.document import Document
+from device.api import Controller
+from widgets.display.display import DisplayPanel
+from widgets.display.messages import MessagesPanel
+from widgets.panel import Panel
+from widgets.program.view import ProgramView
+from widgets.simulator.panel import SimulatorPanel
+from widgets.terminal.terminal import TerminalPanel
+
+
+class Studio(QObject):
+    """One running studio: everything in it is made here and handed what it needs."""
+
+    def __init__(
+        self,
+        application: QApplication,
+        settings: Settings,
+        data: Path,
+        connect: Connector,
+        ports: Callable[[], list[Candidate]],
+        pages: Mapping[str, str],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        super().__init__()
+        self.settings = settings
+        self.theme = Theme(application, Choice(settings.get("theme")))
+        self.session = Session(recovery_folder=data / "recovery")
+        self.connection = Connection(connect, Controller.offline, self)
+        self.tick = Tick(self)
+        self.program = ProgramView(self.session)
+        self.window = Window(self.program)
+        self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
+        self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
+        self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
+        self.files = Files(self.session, settings, self.desk.ask, self.window)
+        self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self)
+        self.talk = Talk(self.connection, self.tick, self.terminal, self)
+        self.search = Search(connect, clock, self)
+        self.start = Start(self.connection, self.search, settings, ports, self.window)
+        self.actions = Actions(self._handlers(), self.program.commands, self)
+        self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
+        self.ear = Program(self.program, self.display, self.tick, self.desk.say)
+        self.stop_key = StopKey(application, self.connection.stop)
+        self.crash = CrashHook(data / "crashes", self.connection.stop, self)
+        self.panels: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
+        self._fill_window()
+        self._join()
+        self._attach(self.connection.controller)
+        self._document_changed(None, self.session.document)
+
+    def close(self) -> None:
+        """At the end: no more ticks, the connection closed, the hooks given back."""
+        self.tick.stop()
+        self.search.cancel()
+        self.connection.close()
+        self.crash.uninstall()
+        self.stop_key.remove()
+
+    def _handlers(self) -> dict[str, Callable[[], None]]:
+        desk, run, start = self.desk, self.run, self.start
+        return {
+            "new": self.files.new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
+            "export_code": self.files.export_code, "exit": self._exit,
+            "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
+            "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
+            "theme_dark": partial(self._theme, "dark"),
+            "setup": desk.show_setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
+            "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
+            "jog": _nothing, "teach": _nothing, "scope": _nothing, "tune": _nothing,
+            "connect": start.look, "serial": start.show_serial, "simulator": start.use_simulator,
+            "disconnect": self.connection.go_offline, "take_control": self._toggle_control,
+            "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
+            "stop": self.connection.stop, "help": desk.help_for_focus,
+            "about": partial(desk.ask, "About Twoletter Studio", about_words(), (), "info"),
+        }  # fmt: skip
+
+    def _fill_window(self) -> None:
+        window, header = self.window, self.window.header
+        window.add("Instructions", self.program.instructions, LEFT)
+        window.add("Display", self.display, RIGHT, moves=True)
+        window.add("Simulator", self.simulator, RIGHT, moves=True)
+        window.add("Inspector", self.program.inspector, RIGHT)
+        window.add("Problems", self.program.problems, BOTTOM)
+        window.add("Messages", self.messages, BOTTOM)
+        window.add("Terminal", self.terminal, BOTTOM, moves=True)
+        self.actions.fill_menus(header.menus, window.submenus)
+        self.actions.fill_toolbar(header.toolbar, MAIN)
+        self.actions.fill_toolbar(window.run_bar.toolbar, RUN)
+        self.desk.tick_theme(self.actions)
+        self.desk.restore()
+
+    def _join(self) -> None:
+        for panel in self.panels:
+            self.tick.add(panel)
+        for look in (self.ear.look, self.follow.look, self.search.look, self.stop_key.stay_first):
+            self.tick.each(look)
+        self._join_window()
+        self._join_talk()
+        self.connection.changed.connect(self._attach)
+        self.session.document_changed.connect(self._document_changed)
+        self.start.setup_wanted.connect(self.desk.show_setup)
+        self.start.exit_wanted.connect(self._exit)
+        self.run.uploaded.connect(self.desk.show_upload)
+        self.run.show_problem.connect(self.program.reveal_step)
+        self.run.downloaded.connect(self._downloaded)
+        for said in (self.files.said, self.run.said, self.talk.said, self.session.autosave_failed):
+            said.connect(self.desk.say)
+        for complaint in self.settings.complaints:
+            self.desk.say(complaint)
+
+    def _join_window(self) -> None:
+        window = self.window
+        window.stop.connect(self.connection.stop)
+        window.closing.connect(lambda event: self.desk.closing(event, self.files))
+        window.status.progress.cancelled.connect(self.run.cancel)
+        window.submenus["recent"].aboutToShow.connect(lambda: self.desk.fill_recent(self.files))
+        self.desk.export_wanted.connect(self.files.export_code)
+        self.program.said.connect(window.status.say)
+        self.program.help_requested.connect(self.desk.show_help)
+        self.program.problems.count_changed.connect(partial(self.desk.retitle, "Problems"))
+
+    def _join_talk(self) -> None:
+        talk = self.talk
+        self.window.prompt.answered.connect(talk.answer)
+        self.window.prompt.not_waiting.connect(talk.not_waiting)
+        self.window.header.switch.wanted.connect(talk.control)
+        self.display.io_control_wanted.connect(talk.io_control)
+        self.display.output_wanted.connect(talk.output)
+        self.terminal.command.connect(talk.typed)
+        self.simulator.stimulus.connect(talk.stimulus)
+
+    def _attach(self, controller: Controller) -> None:
+        """Everything works with this controller from now on."""
+        controller.show_listing(self.session.listing.text)
+        self.tick.attach(controller)
+        for panel in self.panels:
+            panel.attach(controller)
+        self.follow.look()
+
+    def _document_changed(self, old: Document | None, new: Document) -> None:
+        self.program.show_document(old, new)
+        for panel in self.panels:
+            panel.show_document(old, new)
+        self.connection.controller.show_listing(self.session.listing.text)
+
+    def _downloaded(self) -> None:
+        self.program.clear_error()
+        self.program.running = self.session.listing
+
+    def _theme(self, name: str) -> None:
+        self.desk.choose_theme(name, self.actions)
+
+    def _toggle_control(self) -> None:
+        self.talk.control(not self.connection.controller.control)
+
+    def _exit(self) -> None:
+        self.window.close()
+
+
+def _nothing() -> None:
+    """For rows that are grey in this build."""

@@ -1,0 +1,179 @@
+"""Windows and panels: what is in front, in which colours and arrangement, and what is asked before leaving."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QApplication, QDialog, QVBoxLayout
+
+from app.actions import Actions
+from app.files import Files
+from app.run import Answers
+from app.session import Session
+from app.settings import Settings
+from app.theme import Choice, Theme
+from app.window import Window
+from codegen.setup import Setup
+from widgets.display.messages import MessagesPanel
+from widgets.help.panel import HelpPanel
+from widgets.help.topic import topic_of
+from widgets.parts.question import Question
+from widgets.setup.page import SetupPage
+from widgets.terminal.code_window import CodeWindow
+
+LAYOUTS: Mapping[str, tuple[str, ...]] = {
+    "Program": ("Instructions", "Display", "Problems"),
+    "Run": ("Instructions", "Display", "Messages"),
+}
+
+
+class Desk(QObject):
+    """Acts on the window; decides nothing about machines or programs."""
+
+    export_wanted = Signal(str)
+
+    def __init__(
+        self,
+        window: Window,
+        session: Session,
+        settings: Settings,
+        theme: Theme,
+        messages: MessagesPanel,
+        pages: Mapping[str, str],
+    ) -> None:
+        super().__init__(window)
+        self._window, self._session, self._settings = window, session, settings
+        self._theme, self._messages, self._pages = theme, messages, pages
+        self.question: Question | None = None
+        self.setup_page: SetupPage | None = None
+        self.help: QDialog | None = None
+        self.upload: CodeWindow | None = None
+        self._help_panel: HelpPanel | None = None
+
+    def ask(self, title: str, words: str, answers: Answers, picture: str = "help") -> None:
+        """A question that blocks nothing."""
+        self.question = Question(title, words, list(answers), self._window, picture)
+        self.question.show()
+
+    def say(self, sentence: str) -> None:
+        """A sentence in the status bar and in the messages."""
+        self._window.status.say(sentence)
+        self._messages.say(sentence)
+
+    def bring(self, title: str) -> None:
+        """A panel in front."""
+        self._window.docks[title].bring()
+
+    def arrange(self, layout: str) -> None:
+        """A ready layout."""
+        self._settings.set("layout", layout)
+        self._window.arrange(LAYOUTS[layout])
+
+    def restore(self) -> None:
+        """The arrangement of last time, or the layout chosen last."""
+        if not self._window.restore(self._settings.get("window")):
+            self._window.resize(1400, 860)
+            self._window.arrange(LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"]))
+
+    def choose_theme(self, name: str, actions: Actions) -> None:
+        """Light, dark or system, remembered."""
+        self._settings.set("theme", name)
+        self._theme.choose(Choice(name))
+        self.tick_theme(actions)
+
+    def tick_theme(self, actions: Actions) -> None:
+        """The menu's tick stands at what was chosen."""
+        for name in ("system", "light", "dark"):
+            actions[f"theme_{name}"].setChecked(self._theme.choice == name)
+
+    def retitle(self, title: str, count: int) -> None:
+        """A number behind the title of a panel."""
+        self._window.docks[title].setWindowTitle(f"{title} {count}" if count else title)
+
+    def show_setup(self) -> None:
+        """The first page of the setup."""
+        if self.setup_page is not None and self.setup_page.isVisible():
+            self.setup_page.raise_()
+            self.setup_page.activateWindow()
+            return
+        document = self._session.document
+        content = any((document.program.configuration, document.program.main, document.program.routines))
+        self.setup_page = SetupPage(document.setup, content, self._window)
+        self.setup_page.accepted_setup.connect(self._take_setup)
+        self.setup_page.show()
+
+    def show_help(self, page: str) -> None:
+        """A help page in a window of its own."""
+        if self.help is None or self._help_panel is None:
+            self.help = QDialog(self._window)
+            self.help.setWindowTitle("Help")
+            self.help.resize(880, 640)
+            self._help_panel = HelpPanel(self._pages)
+            column = QVBoxLayout(self.help)
+            column.addWidget(self._help_panel)
+        self._help_panel.open(page)
+        self.help.show()
+        self.help.raise_()
+
+    def help_for_focus(self) -> None:
+        """Help for whatever has the focus."""
+        self.show_help(topic_of(QApplication.focusWidget()) or "Program window")
+
+    def show_upload(self, text: str) -> None:
+        """The program that was read from the controller."""
+        self.upload = CodeWindow("The program in the controller", text, self._session.listing.text, self._window)
+        self.upload.save_wanted.connect(self.export_wanted)
+        self.upload.show()
+
+    def offer_recovery(self) -> None:
+        """Work that a crashed session left behind."""
+        for left in self._session.recoverable()[:1]:
+            name = Path(left.original).name if left.original else left.document.program.name or "a new program"
+            words = (
+                f"Unsaved work on {name} from {left.when:%d.%m.%Y %H:%M} was kept when the program ended unexpectedly."
+            )
+            answers = (
+                ("Recover it", partial(self._session.recover, left)),
+                ("Throw it away", partial(self._session.forget, left)),
+            )
+            self.ask("Recover unsaved work?", words, answers, "file")
+
+    def fill_recent(self, files: Files) -> None:
+        """The menu of programs opened last."""
+        menu = self._window.submenus["recent"]
+        menu.clear()
+        for path in files.recent:
+            action = menu.addAction(
+                path.name, partial(files.careful, "Open another program?", partial(files.open_path, path))
+            )
+            action.setToolTip(str(path))
+        if menu.isEmpty():
+            menu.addAction("Nothing opened yet").setEnabled(False)
+
+    def closing(self, event: QCloseEvent, files: Files) -> None:
+        """Unsaved work is asked about; the arrangement is remembered."""
+        if self._session.dirty:
+            event.ignore()
+            files.careful("Leave Twoletter Studio?", self.leave)
+            return
+        self.leave()
+
+    def leave(self) -> None:
+        """Ends the program."""
+        self._settings.set("window", self._window.arrangement())
+        self._session.close()
+        QApplication.quit()
+
+    def _take_setup(self, setup: Setup, keep: str) -> None:
+        self._session.set_document(with_setup(self._session, setup, keep), "Change setup")
+
+
+def with_setup(session: Session, setup: Setup, keep: str) -> object:
+    """The document with another setup; numbers stay as they are in units, or are rescaled so that counts stay."""
+    from codegen.rescale import with_setup as rescaled
+
+    return rescaled(session.document, setup, keep)

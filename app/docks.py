@@ -1,0 +1,54 @@
+"""Panels as docks: any may float, tab or close; what moves something wears its kind and has its own STOP when floating."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
+
+from device.api import Kind, StopState
+from widgets.parts.kind import KindFrame
+from widgets.parts.stop_button import StopButton
+
+
+class Dock(QDockWidget):
+    """One panel. `moves` gives it the border of the kind and a STOP of its own while it floats."""
+
+    stop = Signal()
+
+    def __init__(self, title: str, content: QWidget, moves: bool = False, parent: QWidget | None = None) -> None:
+        super().__init__(title, parent)
+        self.setObjectName(title)
+        self.setAccessibleName(title)
+        self.content = content
+        self.frame: KindFrame | None = None
+        self.stop_button: StopButton | None = None
+        self.setWidget(self._framed(content) if moves else content)
+        self.topLevelChanged.connect(self._floats)
+
+    def show_state(self, kind: Kind, state: StopState) -> None:
+        """What is connected, and what has become of the last stop."""
+        if self.frame is not None and self.stop_button is not None:
+            self.frame.show_kind(kind)
+            self.stop_button.show_state(kind, state)
+
+    def bring(self) -> None:
+        """Shown, in front, with the focus in it."""
+        self.show()
+        self.raise_()
+        self.content.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _framed(self, content: QWidget) -> QWidget:
+        self.frame, self.stop_button = KindFrame(), StopButton()
+        self.stop_button.stop.connect(self.stop)
+        self.stop_button.hide()
+        column = QVBoxLayout(self.frame)
+        margin = self.frame.contentsMargins().left()
+        column.setContentsMargins(margin, margin, margin, margin)
+        column.setSpacing(0)
+        column.addWidget(self.stop_button, 0, Qt.AlignmentFlag.AlignRight)
+        column.addWidget(content, 1)
+        return self.frame
+
+    def _floats(self, floating: bool) -> None:
+        if self.stop_button is not None:
+            self.stop_button.setVisible(floating)

@@ -1,0 +1,137 @@
+"""New, open, save: what is asked before work could be lost, and what is said when a file can not be read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from app.run import Ask
+from app.session import ChangedOnDisk, NoPath, Session
+from app.settings import Settings
+from codegen.files import FileUnreadable
+from widgets.parts import files as choose
+
+MOST_RECENT = 10
+
+
+class Files(QObject):
+    """Acts on the session; every failure becomes a sentence."""
+
+    said = Signal(str)
+    recent_changed = Signal()
+
+    def __init__(self, session: Session, settings: Settings, ask: Ask, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._session, self._settings, self._ask, self._window = session, settings, ask, parent
+
+    def new(self) -> None:
+        """An empty program, after asking about unsaved work."""
+        self.careful("Start a new program?", self._session.new)
+
+    def open(self) -> None:
+        """Asks for a file, after asking about unsaved work."""
+        self.careful(
+            "Open another program?",
+            lambda: choose.ask_open(self._window, "Open program", choose.PROGRAMS, self.open_path, self._folder()),
+        )
+
+    def open_path(self, path: Path) -> None:
+        """Opens a file that was named."""
+        try:
+            self._session.open(path)
+        except (FileUnreadable, OSError) as error:
+            self._ask("The program can not be opened", _sentence(error, path), (), "problem")
+            return
+        self._remember(path)
+
+    def save(self, then: Callable[[], None] | None = None) -> None:
+        """Saves; without a name it asks for one first."""
+        self._write(self._session.save, then)
+
+    def save_as(self, then: Callable[[], None] | None = None) -> None:
+        """Saves under a name that is asked for."""
+        name = self._session.document.program.name or "program"
+        proposed = self._session.path or self._folder() / f"{name.lower().replace(' ', '_')}.tlp"
+        choose.ask_save(
+            self._window,
+            "Save program",
+            choose.PROGRAMS,
+            lambda path: self._write(lambda: self._session.save_as(path, overwrite=True), then),
+            proposed,
+            "tlp",
+        )
+
+    def export_code(self, text: str | None = None) -> None:
+        """Writes two-letter code (of the program unless given) into a file."""
+        code = self._session.listing.text if text is None else text
+        stem = self._session.path.stem if self._session.path is not None else "program"
+        choose.ask_save(
+            self._window,
+            "Export code",
+            choose.CODE,
+            lambda path: self._export(path, code),
+            self._folder() / f"{stem}.dmc",
+            "dmc",
+        )
+
+    def careful(self, title: str, go_on: Callable[[], object]) -> None:
+        """Goes on at once when nothing is unsaved, else asks."""
+        if not self._session.dirty:
+            go_on()
+            return
+        words = f"“{self._session.title.rstrip('*')}” has changes that are not saved."
+        answers = (("Save", lambda: self.save(lambda: go_on() and None)), ("Do not save", lambda: go_on() and None))
+        self._ask(title, words, answers, "warning")
+
+    @property
+    def recent(self) -> list[Path]:
+        """Programs opened last that are still there."""
+        return [path for name in self._settings.get("recent_files") if (path := Path(name)).is_file()]
+
+    def _write(self, save: Callable[[], object], then: Callable[[], None] | None) -> None:
+        try:
+            save()
+        except NoPath:
+            self.save_as(then)
+            return
+        except ChangedOnDisk as changed:
+            answers = (
+                ("Save under another name", lambda: self.save_as(then)),
+                ("Overwrite it", lambda: self._write(lambda: self._session.save(overwrite=True), then)),
+            )
+            self._ask("Somebody else changed this file", str(changed), answers, "warning")
+            return
+        except OSError as error:
+            self._ask("The program can not be saved", _sentence(error, self._session.path), (), "problem")
+            return
+        if self._session.path is not None:
+            self._remember(self._session.path)
+            self.said.emit(f"Saved: {self._session.path.name}")
+        if then is not None:
+            then()
+
+    def _export(self, path: Path, code: str) -> None:
+        try:
+            path.write_text(code, encoding="ascii", errors="replace", newline="\n")
+        except OSError as error:
+            self._ask("The code can not be written", _sentence(error, path), (), "problem")
+            return
+        self.said.emit(f"Written: {path.name}")
+
+    def _remember(self, path: Path) -> None:
+        others = [name for name in self._settings.get("recent_files") if name != str(path)]
+        self._settings.set("recent_files", [str(path), *others][:MOST_RECENT])
+        self.recent_changed.emit()
+
+    def _folder(self) -> Path:
+        recent = self.recent
+        return self._session.path.parent if self._session.path else recent[0].parent if recent else Path.home()
+
+
+def _sentence(error: Exception, path: Path | None) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return f"{path}: {error.strerror}."
+    return str(error)

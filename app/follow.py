@@ -1,0 +1,166 @@
+"""With every tick: what is possible, what is connected, what the program does, as the window shows it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject
+
+from app.actions import Actions
+from app.connection import Connection
+from app.facts import Facts
+from app.run import Run
+from app.session import Session
+from app.tick import Tick, failure_of
+from app.window import Window
+from codegen.twoletter.problems import ERROR_TEXTS
+from device.api import Kind, NoticeKind, Row, State
+from widgets.display.display import DisplayPanel
+from widgets.display.threads import thread_words
+from widgets.panel import Panel
+from widgets.parts.units import shown
+from widgets.program.view import ProgramView
+
+if TYPE_CHECKING:
+    from device.api import Notice
+
+FAULT = re.compile(r"\?\s*(\d{3}) (.*)")
+OWNER = "status bar"
+
+
+class Follow(QObject):
+    """Reads, never asks the person anything; `look` is called with each tick."""
+
+    def __init__(
+        self,
+        connection: Connection,
+        session: Session,
+        run: Run,
+        actions: Actions,
+        window: Window,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._connection, self._session, self._run = connection, session, run
+        self._actions, self._window = actions, window
+        self._watched: object = None
+
+    def look(self) -> None:
+        """Brings everything up to date; nothing is touched that has not changed."""
+        controller = self._connection.controller
+        self._actions.show_facts(self.facts())
+        self._window.show_stop(controller.kind, controller.stop_state, controller.control)
+        self._window.show_title(self._session.title, controller.kind)
+        self._window.prompt.show_prompt(controller.pending_prompt)
+        online = controller.kind is not Kind.OFFLINE
+        self._window.run_bar.show_badge(controller.program_badge if online else None)
+        self._window.status.progress.show_job(self._run.doing, self._run.job)
+        self._watch()
+        self._status(controller.last())
+
+    def facts(self) -> Facts:
+        """What is the case right now."""
+        controller = self._connection.controller
+        program = self._session.document.program
+        steps = len(program.configuration) + len(program.main) + len(program.routines)
+        return Facts(
+            kind=controller.kind,
+            state=controller.state,
+            control=controller.control,
+            prompt=controller.pending_prompt is not None,
+            busy=self._run.doing,
+            badge=controller.program_badge,
+            steps=steps,
+            dirty=self._session.dirty,
+        )
+
+    def _watch(self) -> None:
+        """What the status bar and the executing line need, whatever is visible."""
+        controller = self._connection.controller
+        wanted = (controller, controller.axes, controller.state)
+        if wanted == self._watched:
+            return
+        self._watched = wanted
+        if controller.kind is not Kind.OFFLINE and controller.state is State.READY:
+            threads = controller.model.threads if controller.model is not None else 1
+            first = controller.axes[:1].lower()
+            keys = [f"thread{number}" for number in range(threads)]
+            controller.watch(OWNER, [*keys, *([f"position.{first}"] if first else [])])
+
+    def _status(self, row: Row) -> None:
+        controller, status = self._connection.controller, self._window.status
+        status.show_link(controller.kind, self._link_words())
+        if controller.kind is Kind.OFFLINE or controller.state is not State.READY:
+            status.show_program("")
+            status.show_position("")
+            return
+        line = row.value("thread0")
+        source = (controller.listing or "").splitlines()
+        status.show_program(thread_words(0, line, source) if math.isfinite(line) else "")
+        letter = controller.axes[:1]
+        if letter:
+            axis = self._session.document.setup.axis(letter)
+            status.show_position(f"{letter} {shown(row.value(f'position.{letter.lower()}'), axis)} {axis.symbol}")
+
+    def _link_words(self) -> str:
+        controller = self._connection.controller
+        if controller.kind is Kind.OFFLINE:
+            return "nothing connected"
+        if controller.state is not State.READY:
+            return controller.state_text
+        name = (
+            controller.identity.text if controller.identity is not None and controller.identity.text else "controller"
+        )
+        baud = f" · {controller.line.baud:,} baud".replace(",", " ") if controller.line.baud else ""
+        return f"{name}{baud} · {controller.polling_text}"
+
+
+class Program(Panel):
+    """Not shown anywhere: hears faults and rows for the program window (executing line, error on its instruction)."""
+
+    title = "Program"
+
+    def __init__(self, view: ProgramView, display: DisplayPanel, tick: Tick, say: Callable[[str], None]) -> None:
+        super().__init__()
+        self._view, self._display, self._tick, self._say = view, display, tick, say
+        self._executing: dict[int, int | None] = {}
+        self._source: str | None = None
+
+    def look(self) -> None:
+        """The lines the threads are on, from the newest row."""
+        controller = self.controller
+        if controller is None:
+            return
+        if controller.listing != self._source:
+            self._source = controller.listing
+            self._display.show_source(self._source or "")
+        row = controller.last()
+        threads = controller.model.threads if controller.model is not None else 1
+        lines = {number: _line(row.value(f"thread{number}")) for number in range(threads)}
+        if controller.listing is None:
+            lines = {}
+        if lines != self._executing:
+            self._executing = lines
+            self._view.show_executing(lines)
+
+    def notice(self, notice: Notice) -> None:
+        found = FAULT.fullmatch(notice.text) if notice.kind is NoticeKind.FAULT else None
+        if found is None or self.controller is None:
+            return
+        line, source = int(found[1]), found[2]
+
+        def done(future: Future[Any]) -> None:
+            code = 0 if failure_of(future) else int(future.result()[0])
+            reason = ERROR_TEXTS.get(code, "the controller stopped here")
+            self._view.show_error(line, f"{reason} ({source})")
+            self._say(f"The program stopped at line {line}: {reason} ({source}).")
+
+        self._tick.when_done(self.controller.read("_TC"), done)
+
+
+def _line(value: float) -> int | None:
+    return int(value) if math.isfinite(value) and value >= 0 else None

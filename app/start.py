@@ -1,0 +1,164 @@
+"""The way into work: looking for a controller, and everything that can be done without one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from app.connection import Connection, Opened
+from app.search import Candidate, Search
+from app.settings import Settings
+from device.transport import LineSettings
+from widgets.connect.serial_setup import PortShown, SerialChoice, SerialSetup
+from widgets.connect.welcome import Welcome
+
+Ports = Callable[[], list[Candidate]]
+
+
+class Start(QObject):
+    """Owns the welcome window and the serial set-up."""
+
+    setup_wanted = Signal()
+    exit_wanted = Signal()
+
+    def __init__(
+        self, connection: Connection, search: Search, settings: Settings, ports: Ports, parent: QWidget
+    ) -> None:
+        super().__init__(parent)
+        self._connection, self._search, self._settings, self._ports, self._window = (
+            connection,
+            search,
+            settings,
+            ports,
+            parent,
+        )
+        self.welcome: Welcome | None = None
+        self.serial: SerialSetup | None = None
+        search.looking.connect(self._looking)
+        search.question.connect(self._question)
+        search.found.connect(self._found)
+        search.nothing.connect(self._nothing)
+
+    def look(self) -> None:
+        """Shows the welcome window and looks for a controller."""
+        self._show().show_looking("Listing the ports of this computer…")
+        self._search.start(self._known(), self.line())
+
+    def greet(self) -> None:
+        """Shows the welcome window without looking for anything."""
+        self._show().show_nothing("Nothing was looked for (see the settings). What do you want to work with?")
+
+    def show_serial(self) -> None:
+        """Serial communication setup."""
+        if self.serial is not None:
+            self.serial.close()
+        self.serial = SerialSetup(self.choice(), self._shown(), self._window)
+        self.serial.chosen.connect(self._chosen)
+        self.serial.search_again.connect(lambda: self.serial is not None and self.serial.show_ports(self._shown()))
+        self.serial.show()
+
+    def use_simulator(self) -> None:
+        """The simulated controller of the model chosen last."""
+        self._search.cancel()
+        self._connection.open_simulator(self._settings.get("simulator_model"))
+        self._done()
+
+    def open_port(self, device: str) -> None:
+        """A port that was named on the command line, with the settings used last."""
+        self._connection.open(device, self.line())
+        self._remember(device)
+
+    def line(self) -> LineSettings:
+        """The serial line as it was set up last."""
+        choice = self.choice()
+        return LineSettings(
+            baud=choice.baud, bits=choice.bits, parity=choice.parity, stop_bits=choice.stop_bits, handshake=choice.handshake
+        )  # fmt: skip
+
+    def choice(self) -> SerialChoice:
+        """The same as the serial set-up shows it; the first port where none was ever used."""
+        get = self._settings.get
+        ports = self._ports()
+        port = get("port") or (ports[0].device if ports else "")
+        return SerialChoice(
+            port, get("baud"), get("bits"), get("stop_bits"), get("parity"), get("echo"), get("handshake")
+        )
+
+    def _chosen(self, choice: SerialChoice) -> None:
+        values = {"port": choice.port, "baud": choice.baud, "bits": choice.bits, "stop_bits": choice.stop_bits}
+        for key, value in {
+            **values,
+            "parity": choice.parity,
+            "echo": choice.echo,
+            "handshake": choice.handshake,
+        }.items():
+            self._settings.set(key, value)
+        self._search.cancel()
+        self.open_port(choice.port)
+        self._done()
+
+    def _way(self, name: str) -> None:
+        ways: dict[str, Callable[[], None]] = {
+            "simulator": self.use_simulator,
+            "serial": self.show_serial,
+            "setup": self._offline_setup,
+            "offline": self._offline,
+            "again": self.look,
+            "exit": self.exit_wanted.emit,
+            "allow": self._search.allow,
+            "skip": self._search.skip,
+        }
+        ways[name]()
+
+    def _offline(self) -> None:
+        self._search.cancel()
+        self._connection.go_offline()
+        self._done()
+
+    def _offline_setup(self) -> None:
+        self._offline()
+        self.setup_wanted.emit()
+
+    def _found(self, candidate: Candidate, opened: Opened) -> None:
+        self._remember(candidate.device)
+        self._connection.adopt(opened, candidate.device)
+        self._done()
+
+    def _looking(self, sentence: str) -> None:
+        if self.welcome is not None:
+            self.welcome.show_looking(sentence)
+
+    def _question(self, candidate: Candidate) -> None:
+        self._show().show_question(candidate.device, candidate.words)
+
+    def _nothing(self, sentence: str) -> None:
+        self._show().show_nothing(sentence)
+
+    def _show(self) -> Welcome:
+        if self.welcome is None:
+            self.welcome = Welcome(self._window)
+            self.welcome.way.connect(self._way)
+            self.welcome.rejected.connect(self._search.cancel)
+        self.welcome.show()
+        return self.welcome
+
+    def _done(self) -> None:
+        if self.welcome is not None:
+            self.welcome.hide()
+
+    def _remember(self, device: str) -> None:
+        used = self._settings.get("ports_used")
+        if device not in used:
+            self._settings.set("ports_used", [*used, device])
+
+    def _known(self) -> list[Candidate]:
+        used = self._settings.get("ports_used")
+        return [Candidate(each.device, each.words, each.device in used) for each in self._ports()]
+
+    def _shown(self) -> list[PortShown]:
+        return [
+            PortShown(each.device, f"{each.device} – {each.words}" if each.words else each.device)
+            for each in self._ports()
+        ]

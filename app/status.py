@@ -1,0 +1,72 @@
+"""The status bar: kind and connection, what the program does, where the first axis is, progress with Cancel."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QStatusBar, QWidget
+
+from device.api import Job, Kind
+from widgets.panel import set_text
+from widgets.parts.kind import KindBadge
+
+
+class Progress(QWidget):
+    """Phase, share done, and Cancel; hidden while nothing is under way."""
+
+    cancelled = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.words, self.bar, self.cancel = QLabel(), QProgressBar(), QPushButton("Cancel")
+        self.bar.setRange(0, 1000)
+        self.bar.setFixedWidth(200)
+        self.bar.setAccessibleName("Progress")
+        self.cancel.clicked.connect(self.cancelled)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 2, 0, 2)
+        for widget in (self.words, self.bar, self.cancel):
+            row.addWidget(widget)
+        self.hide()
+
+    def show_job(self, doing: str, job: Job[object] | None) -> None:
+        """What is under way; nothing when `doing` is empty."""
+        self.setVisible(bool(doing))
+        self.bar.setVisible(job is not None)
+        self.cancel.setVisible(job is not None)
+        if job is None:
+            set_text(self.words, doing)
+            return
+        set_text(self.words, f"{doing}: {job.phase}" if job.phase else doing)
+        value = round(job.fraction * 1000)
+        if value != self.bar.value():
+            self.bar.setValue(value)
+
+
+class Status(QStatusBar):
+    """Permanent parts right, sentences of the moment left."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setSizeGripEnabled(False)
+        self.badge, self.link, self.program, self.position = KindBadge(), QLabel(), QLabel(), QLabel()
+        self.progress = Progress()
+        self.addPermanentWidget(self.progress)
+        for widget in (self.position, self.program, self.link, self.badge):
+            self.addPermanentWidget(widget)
+
+    def show_link(self, kind: Kind, words: str) -> None:
+        """What is connected and how fast it is read."""
+        self.badge.show_kind(kind)
+        set_text(self.link, words)
+
+    def show_program(self, words: str) -> None:
+        """What thread 0 does."""
+        set_text(self.program, words)
+
+    def show_position(self, words: str) -> None:
+        """Where the first axis is."""
+        set_text(self.position, words)
+
+    def say(self, words: str) -> None:
+        """A sentence that goes away by itself."""
+        self.showMessage(words, 10_000)

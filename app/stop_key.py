@@ -1,0 +1,37 @@
+"""F12 stops, whatever has the focus: dialogs, popups, drags and open editors included."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt
+from PySide6.QtGui import QKeyEvent
+
+KEY = Qt.Key.Key_F12
+SEEN = frozenset({QEvent.Type.KeyPress, QEvent.Type.KeyRelease, QEvent.Type.ShortcutOverride})
+
+
+class StopKey(QObject):
+    """An event filter of the whole application, always the first one."""
+
+    def __init__(self, application: QCoreApplication, stop: Callable[[], None]) -> None:
+        super().__init__(application)
+        self._application = application
+        self._stop = stop
+        self.stay_first()
+
+    def stay_first(self) -> None:
+        """Goes before filters installed since: a running drag installs one that swallows every key. Called with each tick."""
+        self._application.installEventFilter(self)
+
+    def remove(self) -> None:
+        """F12 does nothing any more."""
+        self._application.removeEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() not in SEEN or not isinstance(event, QKeyEvent) or event.key() != KEY:
+            return False
+        event.accept()
+        if event.type() is QEvent.Type.KeyPress and not event.isAutoRepeat():
+            self._stop()
+        return True

@@ -1,0 +1,63 @@
+"""Starts Qt and the studio."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+from PySide6.QtCore import QLocale, QTimer
+from PySide6.QtWidgets import QApplication
+
+from app.compose import Studio
+from app.connection import connector
+from app.search import Candidate
+from app.settings import Settings, data_folder, settings_path
+
+
+def run_studio(file: Path | None, connect: str = "ask") -> int:
+    """Opens the window and returns the exit code. `connect`: ask, offline, simulator[:MODEL] or port:PORT."""
+    QLocale.setDefault(QLocale.c())
+    application = QApplication.instance() or QApplication(sys.argv[:1])
+    assert isinstance(application, QApplication)
+    application.setApplicationName("Twoletter Studio")
+    settings = Settings(settings_path())
+    folder = data_folder()
+    opener = connector(folder / "programs", lambda: 60.0 * float(settings.get("idle_minutes")))
+    studio = Studio(application, settings, folder, opener, list_ports, help_pages())
+    studio.crash.install()
+    studio.window.show()
+    studio.tick.start()
+    QTimer.singleShot(0, lambda: begin(studio, file, connect))
+    code = application.exec()
+    studio.close()
+    return int(code)
+
+
+def begin(studio: Studio, file: Path | None, connect: str) -> None:
+    """What the command line asked for, once the window is there."""
+    if file is not None:
+        studio.files.open_path(file)
+    else:
+        studio.desk.offer_recovery()
+    way, _, what = connect.partition(":")
+    if way == "simulator":
+        studio.connection.open_simulator(what or studio.settings.get("simulator_model"))
+    elif way == "port":
+        studio.start.open_port(what)
+    elif way == "ask":
+        studio.start.look() if studio.settings.get("look_at_start") else studio.start.greet()
+
+
+def list_ports() -> list[Candidate]:
+    """The serial ports of this computer."""
+    from device.find import ports
+
+    return [Candidate(port.device, port.description, port.used_before) for port in ports()]
+
+
+def help_pages() -> Mapping[str, str]:
+    """Every help page by its title."""
+    from codegen.docs import pages
+
+    return pages()

@@ -1,0 +1,96 @@
+"""The one timer that touches live data: thirty times a second it hands the newest row to whatever is visible."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, Qt, QTimer
+
+from widgets.panel import Panel
+
+if TYPE_CHECKING:
+    from device.api import Controller
+
+PERIOD_MS = 33
+OWNER = "panels"
+
+
+class Tick(QObject):
+    """Drains notices, refreshes visible panels, asks for what they need, and looks after futures."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._panels: list[Panel] = []
+        self._each: list[Callable[[], None]] = []
+        self._pending: list[tuple[Future[Any], Callable[[Future[Any]], None]]] = []
+        self._controller: Controller | None = None
+        self._watched: frozenset[str] = frozenset()
+        self._timer = QTimer(self)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.setInterval(PERIOD_MS)
+        self._timer.timeout.connect(self.once)
+
+    def start(self) -> None:
+        """Begins ticking."""
+        self._timer.start()
+
+    def stop(self) -> None:
+        """No more ticks."""
+        self._timer.stop()
+
+    def add(self, panel: Panel) -> None:
+        """A panel that wants rows and notices."""
+        self._panels.append(panel)
+
+    def each(self, call: Callable[[], None]) -> None:
+        """Something to do with every tick, after the panels."""
+        self._each.append(call)
+
+    def attach(self, controller: Controller) -> None:
+        """Works with another controller from now on."""
+        self._controller = controller
+        self._watched = frozenset()
+
+    def when_done(self, future: Future[Any], call: Callable[[Future[Any]], None]) -> None:
+        """Calls back, here in the window's own thread, once the future is finished; cancelled ones are forgotten."""
+        self._pending.append((future, call))
+
+    def once(self) -> None:
+        """One tick; tests call it themselves."""
+        controller = self._controller
+        if controller is not None:
+            for notice in controller.notices():
+                for panel in self._panels:
+                    panel.notice(notice)
+            self._refresh(controller)
+        self._finish_futures()
+        for call in self._each:
+            call()
+
+    def _refresh(self, controller: Controller) -> None:
+        shown = [panel for panel in self._panels if panel.isVisible() and not panel.visibleRegion().isEmpty()]
+        wanted = frozenset(key for panel in shown for key in panel.watches())
+        if wanted != self._watched:
+            self._watched = wanted
+            controller.watch(OWNER, sorted(wanted))
+        row = controller.last()
+        for panel in shown:
+            panel.refresh(row)
+
+    def _finish_futures(self) -> None:
+        done = [pair for pair in self._pending if pair[0].done()]
+        self._pending = [pair for pair in self._pending if pair not in done]
+        for future, call in done:
+            if not future.cancelled():
+                call(future)
+
+
+def failure_of(future: Future[Any]) -> str:
+    """Why a finished future failed, in a sentence; empty when it did not."""
+    try:
+        error = future.exception()
+    except CancelledError:
+        return "cancelled"
+    return "" if error is None else str(error) or type(error).__name__

@@ -1,0 +1,108 @@
+"""The main window: header, docks, centre, status bar and title. It decides nothing."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QMainWindow, QMenu, QVBoxLayout, QWidget
+
+from app.docks import Dock
+from app.header import Header
+from app.run_bar import RunBar
+from app.status import Status
+from device.api import Kind, StopState
+from widgets.parts.kind import WORDS
+from widgets.terminal.prompt import PromptBox
+
+LEFT, RIGHT, BOTTOM = (
+    Qt.DockWidgetArea.LeftDockWidgetArea,
+    Qt.DockWidgetArea.RightDockWidgetArea,
+    Qt.DockWidgetArea.BottomDockWidgetArea,
+)
+VERSION = 1  # of the arrangement that is remembered
+
+
+class Window(QMainWindow):
+    """Everything it shows is handed to it."""
+
+    stop = Signal()
+    closing = Signal(object)  # the QCloseEvent; the owner may ignore it
+
+    def __init__(self, centre: QWidget) -> None:
+        super().__init__()
+        self.setDockNestingEnabled(True)
+        self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, self.tabPosition(BOTTOM).North)
+        self.header, self.status, self.run_bar, self.prompt = Header(), Status(), RunBar(), PromptBox()
+        self.header.stop.stop.connect(self.stop)
+        self.setMenuWidget(self.header)
+        self.setStatusBar(self.status)
+        self.docks: dict[str, Dock] = {}
+        self.submenus = {"recent": QMenu("Open recent"), "panels": QMenu("Panels")}
+        self._shown: tuple[str, Kind] | None = None
+        middle = QWidget()
+        column = QVBoxLayout(middle)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        for widget, stretch in ((self.run_bar, 0), (self.prompt, 0), (centre, 1)):
+            column.addWidget(widget, stretch)
+        self.setCentralWidget(middle)
+        self.show_title("", Kind.OFFLINE)
+
+    def add(self, title: str, content: QWidget, area: Qt.DockWidgetArea, moves: bool = False) -> Dock:
+        """A new dock; further ones in the same area become tabs."""
+        dock = Dock(title, content, moves)
+        dock.stop.connect(self.stop)
+        before = [each for each in self.docks.values() if self.dockWidgetArea(each) == area]
+        self.addDockWidget(area, dock)
+        if before:
+            self.tabifyDockWidget(before[-1], dock)
+        self.docks[title] = dock
+        self.submenus["panels"].addAction(dock.toggleViewAction())
+        return dock
+
+    def show_title(self, name: str, kind: Kind) -> None:
+        """The program's name and the kind, in the title bar of the system."""
+        if (name, kind) != self._shown:
+            self._shown = (name, kind)
+            self.setWindowTitle(
+                f"{name} – Twoletter Studio – {WORDS[kind]}" if name else f"Twoletter Studio – {WORDS[kind]}"
+            )
+
+    def show_stop(self, kind: Kind, state: StopState, control: bool) -> None:
+        """The STOP button here and in every floating panel, and the Watch/Control switch."""
+        self.header.stop.show_state(kind, state)
+        self.header.switch.show_state(kind, control)
+        for dock in self.docks.values():
+            dock.show_state(kind, state)
+
+    def arrange(self, front: tuple[str, ...]) -> None:
+        """A ready layout: every dock back in its place, those named in front."""
+        for dock in self.docks.values():
+            dock.setFloating(False)
+            dock.show()
+        for title in front:
+            self.docks[title].raise_()
+        sides = [self.docks[title] for title in ("Instructions", "Display") if title in self.docks]
+        self.resizeDocks(sides, [264, 376][: len(sides)], Qt.Orientation.Horizontal)
+        if "Problems" in self.docks:
+            self.resizeDocks([self.docks["Problems"]], [176], Qt.Orientation.Vertical)
+
+    def arrangement(self) -> dict[str, str]:
+        """Place, size and docks, as text for the settings."""
+        return {"geometry": _text(self.saveGeometry()), "docks": _text(self.saveState(VERSION))}
+
+    def restore(self, arrangement: dict[str, str]) -> bool:
+        """Puts a remembered arrangement back; False when there is none or it does not fit."""
+        try:
+            geometry, docks = (QByteArray.fromBase64(arrangement[key].encode()) for key in ("geometry", "docks"))
+        except (KeyError, AttributeError):
+            return False
+        return self.restoreGeometry(geometry) and self.restoreState(docks, VERSION)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        event.accept()
+        self.closing.emit(event)
+
+
+def _text(data: QByteArray) -> str:
+    return bytes(data.toBase64().data()).decode()

@@ -1,0 +1,84 @@
+"""Code read from the controller, and where it differs from the open program."""
+
+from __future__ import annotations
+
+import difflib
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QTextCharFormat, QTextCursor
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.parts.look import look
+
+
+class CodeWindow(QDialog):
+    """Not modal; read only."""
+
+    save_wanted = Signal(str)
+
+    def __init__(self, title: str, text: str, own: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(title)
+        self.setModal(False)
+        self.text = text
+        theirs, mine = text.splitlines(), own.splitlines()
+        same = [line.strip() for line in theirs if line.strip()] == [line.strip() for line in mine if line.strip()]
+        self.words = QLabel(_words(theirs, same))
+        self.code, self.differences = _view("Code in the controller"), _view("Differences")
+        self.code.setPlainText("\n".join(f"{number:4}  {line}" for number, line in enumerate(theirs)))
+        self._show_differences(mine, theirs)
+        tabs = QTabWidget()
+        tabs.addTab(self.code, "In the controller")
+        if not same:
+            tabs.addTab(self.differences, "Compared with the open program")
+        self.save, self.shut = QPushButton("Save as code…"), QPushButton("Close")
+        self.save.setEnabled(bool(theirs))
+        self.save.setToolTip("Writes it into a file" if theirs else "There is nothing to save")
+        self.save.clicked.connect(lambda: self.save_wanted.emit(self.text))
+        self.shut.clicked.connect(self.accept)
+        foot = QHBoxLayout()
+        foot.addWidget(self.save)
+        foot.addStretch(1)
+        foot.addWidget(self.shut)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(16, 16, 16, 16)
+        column.addWidget(self.words)
+        column.addWidget(tabs, 1)
+        column.addLayout(foot)
+        self.resize(640, 560)
+
+    def _show_differences(self, mine: list[str], theirs: list[str]) -> None:
+        cursor = QTextCursor(self.differences.document())
+        for line in difflib.ndiff(mine, theirs):
+            if line.startswith("?"):
+                continue
+            words = {"-": "only in the open program   ", "+": "only in the controller     "}.get(line[0], " " * 27)
+            shape = QTextCharFormat()
+            shape.setForeground(look().colour({"-": "group_flow", "+": "accent"}.get(line[0], "quiet")))
+            cursor.insertText(f"{words}{line[2:]}\n", shape)
+
+
+def _words(lines: list[str], same: bool) -> str:
+    if not lines:
+        return "There is no program in the controller."
+    return f"{len(lines)} lines. " + (
+        "They are the code of the open program." if same else "They differ from the open program."
+    )
+
+
+def _view(name: str) -> QPlainTextEdit:
+    view = QPlainTextEdit()
+    view.setReadOnly(True)
+    view.setAccessibleName(name)
+    view.setFont(look().code_font())
+    view.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+    return view
