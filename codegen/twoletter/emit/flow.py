@@ -137,12 +137,15 @@ def _position(wait: WaitForCondition, build: Build) -> Statement:
             return by_axis(PASSING[wait.place], {wait.axis: position})
         case Place.START:
             distance = build.value(wait.distance, Dimension.DISTANCE, wait.axis)
-            unsigned: Value = distance if isinstance(distance, str) else abs(distance)
-            return by_axis("AD", {wait.axis: unsigned})
+            return by_axis("AD", {wait.axis: distance if isinstance(distance, str) else _size(distance)})
         case Place.LAST:
             return by_axis("AR", {wait.axis: build.value(wait.distance, Dimension.DISTANCE, wait.axis)})
         case Place.PATH:
             return numbers("AV", build.value(wait.path, Dimension.DISTANCE, wait.axis))
+
+
+def _size(value: int | Fraction) -> Value:
+    return -value if value < 0 else value
 
 
 def _clock(wait: WaitForCondition, build: Build) -> Statement:

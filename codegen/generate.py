@@ -1,0 +1,361 @@
+"""From a document to two-letter code, with the step of every line.
+
+The result of each instruction is kept (`compiled`, a memo on the frozen instruction and setup); what is done
+anew at each edit is only the last pass: it numbers generated labels and joins the lines.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple
+
+from codegen.document import Document
+from codegen.expressions import NAME, Bad, names, parse_expression
+from codegen.fields import SYSTEM_LABELS, Choice, fields_of
+from codegen.instructions import End, Instruction, Jump, Label, LoopRate, Subroutine, TwoLetterCode
+from codegen.instructions.flow import EndOf, Routine
+from codegen.program import Section, Step, assigned, is_closed, program_label
+from codegen.read import problems
+from codegen.setup import Finding, Setup
+from codegen.twoletter.calls import BODY, Call
+from codegen.twoletter.emit import statements
+from codegen.twoletter.emit.build import FIRST_NUMBER, Build
+from codegen.twoletter.nodes import Label as LabelNode
+from codegen.twoletter.parse import parse
+
+END_OF = {
+    Routine.USER: EndOf.SUBROUTINE,
+    Routine.MCTIME: EndOf.SUBROUTINE,
+    Routine.CMDERR: EndOf.SUBROUTINE,
+    Routine.ININT: EndOf.INPUT,
+    Routine.POSERR: EndOf.ERROR,
+    Routine.LIMSWI: EndOf.ERROR,
+    Routine.COMINT: EndOf.COMMUNICATION,
+}
+
+
+class Line(NamedTuple):
+    """One line of code; `step` is the step it comes from ("" = the frame of the program).
+
+    `problem` tells why a step could not be turned into code (then the line is a remark). Where several
+    statements share a line, `spans` names the step of each: (first column, column after it, step).
+    """
+
+    text: str
+    step: str = ""
+    problem: str = ""
+    spans: tuple[tuple[int, int, str], ...] = ()
+
+
+@dc.dataclass(frozen=True)
+class Listing:
+    """The code of a program, its source map, and what stands in its way."""
+
+    lines: tuple[Line, ...]
+    problems: tuple[Finding, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """The code as it is sent, one line each."""
+        return "\n".join(line.text for line in self.lines)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every step became code, so that the listing may be sent."""
+        return not any(finding.severity == "error" for finding in self.problems)
+
+    def step_of(self, line: int, column: int = 0) -> str:
+        """The step a place in the code comes from ("" = the frame, or no such line); both count from 0."""
+        if not 0 <= line < len(self.lines):
+            return ""
+        for start, end, step in self.lines[line].spans:
+            if start <= column < end:
+                return step
+        return self.lines[line].step
+
+    def lines_of(self, step: str) -> tuple[int, ...]:
+        """The lines that come from a step, from 0."""
+        return tuple(
+            number
+            for number, line in enumerate(self.lines)
+            if line.step == step or any(span[2] == step for span in line.spans)
+        )
+
+
+@dc.dataclass(frozen=True, slots=True)
+class Compiled:
+    """What one instruction became: lines before and after the steps it holds, and what the program must know."""
+
+    before: tuple[str, ...]
+    after: tuple[str, ...]
+    numbers: int  # how many unique numbers it needs
+    defines: tuple[str, ...]  # labels
+    target: str  # the label it jumps to
+    arrays: tuple[str, ...]  # arrays it dimensions
+    names: tuple[str, ...]  # variables it gives a value
+    errors: tuple[Finding, ...]
+    warnings: tuple[Finding, ...]
+
+
+@lru_cache(maxsize=32768)
+def compiled(instruction: Instruction, setup: Setup) -> Compiled:
+    """The memo of the generator: everything about one instruction that does not depend on its place."""
+    found = problems(instruction, setup)
+    errors = tuple(finding for finding in found if finding.severity == "error")
+    warnings = tuple(finding for finding in found if finding.severity != "error")
+    defines, target = _labels(instruction)
+    if errors:
+        return Compiled((), (), 0, defines, target, (), (), errors, warnings)
+    build = Build(setup)
+    made = statements(instruction, build)
+    texts = [statement.text for statement in made]
+    limit = setup.limits.columns
+    long = next((text for text in texts if len(text) > limit), None)
+    if long is not None:
+        message = f"This becomes a line of {len(long)} characters; the controller takes {limit}"
+        errors = (Finding("", message),)
+    split = made.index(BODY) if BODY in made else len(made)
+    arrays = tuple(each.arguments.split("[")[0] for each in made if isinstance(each, Call) and each.name == "DM")
+    return Compiled(
+        tuple(texts[:split]),
+        tuple(texts[split + 1 :]),
+        build.given,
+        defines,
+        target,
+        arrays,
+        assigned(instruction),
+        errors,
+        warnings,
+    )
+
+
+def _labels(instruction: Instruction) -> tuple[tuple[str, ...], str]:
+    """Labels an instruction defines, and the one it jumps to."""
+    match instruction:
+        case Label():
+            return (instruction.name,), ""
+        case Subroutine():
+            return (instruction.label,), ""
+        case Jump():
+            return (), instruction.target
+        case TwoLetterCode():
+            found = parse(instruction.text).statements()
+            return tuple(node.name for _, node in found if isinstance(node, LabelNode)), ""
+        case _:
+            return (), ""
+
+
+def code(instruction: Instruction, setup: Setup) -> tuple[str, ...]:
+    """The lines an instruction alone would add ("View Code"); none while it has problems."""
+    made = compiled(instruction, setup)
+    if made.errors:
+        return ()
+    numbers = [str(number + 1) for number in range(made.numbers)]
+    return tuple(_numbered(text, numbers) for text in (*made.before, *made.after))
+
+
+def _numbered(text: str, numbers: list[str]) -> str:
+    if text.isascii():
+        return text
+    for place, number in enumerate(numbers):
+        text = text.replace(chr(FIRST_NUMBER + place), number)
+    return text
+
+
+class _Pass:
+    """The last pass: walks the steps, numbers what is generated, and collects lines and problems."""
+
+    def __init__(self, document: Document) -> None:
+        self.program = document.program
+        self.setup = document.working_setup
+        self.lines: list[Line] = []
+        self.problems: list[Finding] = []
+        self.defined: dict[str, str] = {}
+        self.jumps: list[tuple[str, str]] = []
+        self.arrays: list[str] = []
+        self.first_array = -1
+        self.made: dict[int, Compiled] = {}
+        self.taken = self.names_taken()
+        self.number = 0
+
+    def names_taken(self) -> set[str]:
+        """Every label and variable of the person, so that generated ones differ."""
+        taken: set[str] = set()
+        for step in self.program.steps():
+            made = compiled(step.instruction, self.setup)
+            self.made[id(step)] = made
+            if made.defines:
+                taken.update(made.defines)
+            if made.names:
+                taken.update(made.names)
+        return taken
+
+    def next_number(self) -> str:
+        self.number += 1
+        while f"R{self.number}" in self.taken or f"RC{self.number}" in self.taken:
+            self.number += 1
+        return str(self.number)
+
+    def run(self) -> None:
+        label = program_label(self.program, self.raw_labels())
+        if self.program.auto:
+            self.lines.append(Line("#AUTO"))
+        self.lines.append(Line(f"#{label}"))
+        self.defined[label] = ""
+        self.walk(self.program.configuration, Section.CONFIGURATION)
+        self.walk(self.program.main, Section.MAIN)
+        self.lines.append(Line("EN"))
+        for routine in self.program.routines:
+            self.routine(routine)
+        self.free_arrays()
+        self.check_jumps()
+
+    def raw_labels(self) -> tuple[str, ...]:
+        return tuple(
+            name
+            for step in self.program.steps()
+            if isinstance(step.instruction, TwoLetterCode)
+            for name in self.made[id(step)].defines
+        )
+
+    def walk(self, steps: tuple[Step, ...], section: Section) -> None:
+        for step in steps:
+            if step.enabled:
+                self.step(step, section)
+
+    def step(self, step: Step, section: Section) -> None:
+        made = self.made[id(step)]
+        if made.errors or made.warnings:
+            self.problems += [dc.replace(finding, step=step.id) for finding in (*made.errors, *made.warnings)]
+        if made.errors:
+            problem = made.errors[0].message
+            self.lines.append(Line(f"' {problem}", step.id, problem))
+        self.remember(step, made, section)
+        numbers = [self.next_number() for _ in range(made.numbers)] if made.numbers else []
+        self.add(made.before, step.id, numbers)
+        if step.body:
+            self.walk(step.body, section)
+        self.add(made.after, step.id, numbers)
+
+    def add(self, texts: tuple[str, ...], step: str, numbers: list[str]) -> None:
+        if numbers:
+            self.lines += [Line(_numbered(text, numbers), step) for text in texts]
+        else:
+            self.lines += [Line(text, step) for text in texts]
+
+    def remember(self, step: Step, made: Compiled, section: Section) -> None:
+        for label in made.defines:
+            if label in self.defined:
+                self.problems.append(Finding("name", f"The label {label} is used twice", "error", "", step.id))
+            self.defined.setdefault(label, step.id)
+        if made.target:
+            self.jumps.append((made.target, step.id))
+        if made.arrays:
+            if self.first_array < 0:
+                self.first_array = len(self.lines)
+            self.arrays += made.arrays
+        if section is not Section.CONFIGURATION and isinstance(step.instruction, LoopRate):
+            text = "Loop Rate belongs to the configuration: speeds and waits of the whole program depend on it"
+            self.problems.append(Finding("", text, "error", "", step.id))
+
+    def routine(self, routine: Step) -> None:
+        """A subroutine from its label to its end; the right end is added where none closes it."""
+        if not routine.enabled:
+            return
+        self.step(routine, Section.ROUTINES)
+        if not isinstance(routine.instruction, Subroutine):
+            self.problems.append(Finding("", "This step stands outside a subroutine", "error", "", routine.id))
+            return
+        wanted = END_OF[routine.instruction.routine]
+        if not is_closed(routine):
+            self.add(compiled(End(of=wanted), self.setup).before, routine.id, [])
+            self.problems.append(
+                Finding("", "This subroutine is not closed yet: add an End", "warning", "", routine.id)
+            )
+        for step in routine.body:
+            end = step.instruction
+            if step.enabled and isinstance(end, End) and end.of is not wanted:
+                text = f"{routine.instruction.label} needs the end of {_words(wanted)}"
+                self.problems.append(Finding("of", text, "error", "", step.id))
+
+    def free_arrays(self) -> None:
+        """Frees the program's own arrays before the first is made, so that it can be run again."""
+        if not self.arrays:
+            return
+        limit = self.setup.limits.columns
+        step = self.lines[self.first_array].step
+        calls: list[str] = []
+        for name in dict.fromkeys(self.arrays):
+            if calls and len(calls[-1]) + len(name) + 3 <= limit:
+                calls[-1] += f",{name}[]"
+            else:
+                calls.append(Call("DA", f"{name}[]").text)
+        self.lines[self.first_array : self.first_array] = [Line(text, step) for text in calls]
+
+    def check_jumps(self) -> None:
+        for label, step in self.jumps:
+            if label not in self.defined and label not in SYSTEM_LABELS:
+                self.problems.append(Finding("target", f"There is no label {label}", "error", "", step))
+
+
+def _words(end: EndOf) -> str:
+    field = fields_of(End)["of"]
+    assert isinstance(field, Choice)
+    return field.words[end]
+
+
+def generate(document: Document) -> Listing:
+    """The code of a program; compact when it is asked for or when the program is too long otherwise."""
+    work = _Pass(document)
+    work.run()
+    limits = work.setup.limits
+    lines = work.lines
+    if document.compact or len(lines) > limits.lines:
+        lines = list(joined_lines(lines, limits.columns))
+    if len(lines) > limits.lines:
+        text = f"The program has {len(lines)} lines; the controller takes {limits.lines}"
+        work.problems.append(Finding("", text))
+    return Listing(tuple(lines), tuple(work.problems))
+
+
+def joined_lines(lines: list[Line], columns: int) -> Iterator[Line]:
+    """Statements joined with `;` as far as a line goes; a label starts a line, a remark has one of its own."""
+    group: list[Line] = []
+    length = 0
+    for line in lines:
+        alone = line.problem or line.text.startswith(("'", "REM", "NO"))
+        if group and (alone or line.text.startswith("#") or length + 1 + len(line.text) > columns):
+            yield _joined(group)
+            group, length = [], 0
+        group.append(line)
+        length += len(line.text) + (1 if length else 0)
+        if alone:
+            yield _joined(group)
+            group, length = [], 0
+    if group:
+        yield _joined(group)
+
+
+def _joined(group: list[Line]) -> Line:
+    if len(group) == 1:
+        return group[0]
+    spans: list[tuple[int, int, str]] = []
+    start = 0
+    for line in group:
+        spans.append((start, start + len(line.text), line.step))
+        start += len(line.text) + 1
+    return Line(";".join(line.text for line in group), group[0].step, "", tuple(spans))
+
+
+def used_names(document: Document) -> frozenset[str]:
+    """Variables and arrays that the expressions of the program read."""
+    found: set[str] = set()
+    for step in document.program.steps():
+        for field in dc.fields(step.instruction):
+            text = getattr(step.instruction, field.name)
+            if isinstance(text, str) and text and not NAME.match(text):
+                tree = parse_expression(text)
+                found.update(() if isinstance(tree, Bad) else names(tree))
+    return frozenset(found)

@@ -1,0 +1,43 @@
+"""What every instruction has, and the groups of the palette."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from enum import StrEnum
+from typing import ClassVar
+
+
+class Group(StrEnum):
+    """The groups of the palette, in its order."""
+
+    TWO_LETTER = "2-Letter Code"
+    CONFIGURATION = "Configuration"
+    IO = "I/O"
+    MOTION = "Motion"
+    FLOW = "Program Flow"
+    SERVO = "Servo Settings"
+    LIMITS = "System Limits"
+    MATH = "Mathematical Equation"
+
+
+@dc.dataclass(frozen=True, kw_only=True)
+class Instruction:
+    """The values of one instruction; what the class says holds for all of its kind.
+
+    In `sentence`, `{name}` is a field, `[…|…]` is the first alternative whose fields all have a value and are
+    shown (nothing when there is none), and `<…>` is repeated for the axes that have values.
+    """
+
+    title: ClassVar[str]
+    group: ClassVar[Group]
+    section: ClassVar[str] = "M"  # "C" configuration, "M" main or a subroutine, "C/M" either, "S" opens a subroutine
+    sentence: ClassVar[str]
+    help: ClassVar[str]
+    container: ClassVar[bool] = False
+    needs: ClassVar[str] = ""  # why no controller of ours can do it ("" = they can)
+    was: ClassVar[tuple[str, ...]] = ()  # former class names in files
+    renamed: ClassVar[dict[str, str]] = {}  # former field name -> present one
+
+    def own_problem(self) -> tuple[str, str] | None:
+        """A contradiction between the fields: (field, sentence)."""
+        return None

@@ -1,0 +1,287 @@
+"""What any instruction can tell about itself: sentence, problems, what is shown, what is really sent."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, TypeAlias
+
+from codegen.fields import AXES, Context, Field, ListOf, PerAxis, Quantity, fields_of, is_shown, joined
+from codegen.instructions.instruction import Instruction
+from codegen.setup import Finding, Setup
+
+MISSING = "…"
+
+# ------------------------------------------------------------ sentence templates
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Either:
+    alternatives: tuple[_Parts, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Each:
+    parts: _Parts
+
+
+_Parts: TypeAlias = tuple["str | _Place | _Either | _Each", ...]
+_MARK = re.compile(r"\{(\w+)\}|([\[\]|<>])")
+
+
+@lru_cache(maxsize=256)
+def _template(sentence: str) -> _Parts:
+    """A sentence as its parts."""
+    marks = [(match.start(), match.end(), match[1], match[2]) for match in _MARK.finditer(sentence)]
+    parts, _, _ = _read_parts(sentence, marks, 0, 0)
+    return parts
+
+
+def _read_parts(sentence: str, marks: list[Any], number: int, start: int) -> tuple[_Parts, int, int]:
+    """Parts up to the closing mark of this level; answers where that mark is."""
+    parts: list[str | _Place | _Either | _Each] = []
+    while number < len(marks):
+        begin, end, name, mark = marks[number]
+        if begin > start:
+            parts.append(sentence[start:begin])
+        if name:
+            parts.append(_Place(name))
+            start = end
+        elif mark == "[":
+            alternatives: list[_Parts] = []
+            while mark != "]":
+                inner, number, end = _read_parts(sentence, marks, number + 1, end)
+                alternatives.append(inner)
+                mark = marks[number][3]
+            parts.append(_Either(tuple(alternatives)))
+            start = end
+        elif mark == "<":
+            inner, number, start = _read_parts(sentence, marks, number + 1, end)
+            parts.append(_Each(inner))
+        else:
+            return tuple(parts), number, end
+        number += 1
+    if start < len(sentence):
+        parts.append(sentence[start:])
+    return tuple(parts), number, len(sentence)
+
+
+class _Absent(Exception):
+    """A value of this part is empty or hidden, so that the part vanishes."""
+
+
+def _filled(parts: _Parts, words: Callable[[str], str], each: Callable[[_Parts], str]) -> str:
+    written: list[str] = []
+    for part in parts:
+        match part:
+            case str():
+                written.append(part)
+            case _Place(name=name):
+                written.append(words(name))
+            case _Each(parts=inner):
+                written.append(each(inner))
+            case _Either(alternatives=alternatives):
+                written.append(_first(alternatives, words, each))
+    return "".join(written)
+
+
+def _first(alternatives: tuple[_Parts, ...], words: Callable[[str], str], each: Callable[[_Parts], str]) -> str:
+    for parts in alternatives:
+        try:
+            return _filled(parts, words, each)
+        except _Absent:
+            continue
+    return ""
+
+
+def _word(item: Any, name: str, setup: Setup) -> str:
+    """The text of one field, or `_Absent`."""
+    field = fields_of(item)[name]
+    if not is_shown(item, name):
+        raise _Absent
+    value = getattr(item, name)
+    if field.empty(value):
+        if field.required:
+            return MISSING
+        raise _Absent
+    if isinstance(field, ListOf):
+        return "; ".join(_sentence_of(row, setup) for row in value)
+    text = field.text(value, context_of(item, name, setup))
+    if not text:
+        raise _Absent
+    return text
+
+
+def _axis_word(item: Any, name: str, setup: Setup, letter: str) -> str:
+    """The text of one field inside `<…>`: of a per-axis field the value of that axis."""
+    field = fields_of(item).get(name)
+    if not isinstance(field, PerAxis):
+        return _word(item, name, setup)
+    text = getattr(item, name)[AXES.index(letter)]
+    if text == "" or not is_shown(item, name):
+        raise _Absent
+    return field.of.text(text, Context(setup, letter))
+
+
+def _each_axis(item: Any, parts: _Parts, setup: Setup) -> str:
+    """`<…>` for all axes that have a value; axes that read the same share one part."""
+    groups: dict[str, list[str]] = {}
+    for letter in AXES:
+        if not any(
+            getattr(item, name)[AXES.index(letter)]
+            for name, field in fields_of(item).items()
+            if isinstance(field, PerAxis)
+        ):
+            continue
+
+        def words(name: str, letter: str = letter) -> str:
+            return "\0" if name == "axis" else _axis_word(item, name, setup, letter)
+
+        groups.setdefault(_filled(parts, words, _no_each), []).append(letter)
+    written = [text.replace("\0", joined(tuple(letters))) for text, letters in groups.items()]
+    return (
+        "; ".join(text if not place else text[:1].lower() + text[1:] for place, text in enumerate(written)) or MISSING
+    )
+
+
+def _no_each(parts: _Parts) -> str:
+    raise AssertionError("<…> cannot stand inside <…>")
+
+
+def _sentence_of(item: Any, setup: Setup) -> str:
+    return _filled(
+        _template(item.sentence),
+        lambda name: _word(item, name, setup),
+        lambda parts: _each_axis(item, parts, setup),
+    )
+
+
+@lru_cache(maxsize=32768)
+def sentence(instruction: Instruction, setup: Setup) -> str:
+    """The instruction in one line of plain English, with values and units."""
+    special = getattr(instruction, "samples_note", None)
+    text = _sentence_of(instruction, setup)
+    return text + special(setup) if special is not None else text
+
+
+# ---------------------------------------------------------------------- fields
+
+
+def shown(instruction: Any, name: str) -> bool:
+    """Whether a field is to be shown with the present values of the others."""
+    return is_shown(instruction, name)
+
+
+def context_of(item: Any, name: str, setup: Setup, axis: str = "") -> Context:
+    """The context of a field: the setup, and the axis its sibling names."""
+    field = fields_of(item)[name]
+    if not axis and isinstance(field, Quantity) and field.axis:
+        letter = getattr(item, field.axis, "")
+        axis = letter if letter and letter in AXES else ""
+    return Context(setup, axis)
+
+
+def _inner(item: Any, name: str, axis: str) -> tuple[Field, Any]:
+    """Field and value; of a per-axis field those of one axis."""
+    field = fields_of(item)[name]
+    value = getattr(item, name)
+    return (field.of, value[AXES.index(axis)]) if isinstance(field, PerAxis) and axis else (field, value)
+
+
+def problem_of(item: Any, name: str, setup: Setup, axis: str = "") -> str | None:
+    """What is wrong with one field (of a per-axis field: with one axis of it)."""
+    if not is_shown(item, name):
+        return None
+    field = fields_of(item)[name]
+    value = getattr(item, name)
+    if isinstance(field, PerAxis) and axis:
+        return field.problem_of(value, axis, Context(setup, axis))
+    if problem := field.problem(value, context_of(item, name, setup)):
+        return problem
+    if isinstance(field, ListOf):
+        return _rows_problem(field, value, setup)
+    return None
+
+
+def _rows_problem(field: ListOf, rows: tuple[Any, ...], setup: Setup) -> str | None:
+    if field.most and len(rows) > field.most:
+        return f"{field.label}: at most {field.most}"
+    for number, row in enumerate(rows):
+        found = (problem_of(row, name, setup) for name in fields_of(row))
+        if problem := next((each for each in found if each), None):
+            return f"{field.label}, row {number + 1}: {problem}"
+    return None
+
+
+def warning_of(item: Any, name: str, setup: Setup, axis: str = "") -> str | None:
+    """A warning where rounding changes a value by more than 0.1 %."""
+    field, value = _inner(item, name, axis)
+    if isinstance(field, PerAxis | ListOf) or field.empty(value) or not is_shown(item, name):
+        return None
+    counts = field.counts(value, context_of(item, name, setup, axis))
+    return counts.warning if counts else None
+
+
+def counts_text(item: Any, name: str, setup: Setup, axis: str = "") -> str:
+    """What is really sent for a field: `6370 counts`; empty where there is nothing to say."""
+    field, value = _inner(item, name, axis)
+    if isinstance(field, PerAxis | ListOf) or field.empty(value) or problem_of(item, name, setup, axis):
+        return ""
+    counts = field.counts(value, context_of(item, name, setup, axis))
+    return counts.text if counts else ""
+
+
+def unit_text(item: Any, name: str, setup: Setup, axis: str = "") -> str:
+    """The unit shown behind a field: `in/s`."""
+    field, _ = _inner(item, name, axis)
+    return field.unit(context_of(item, name, setup, axis))
+
+
+def _places(item: Any) -> Iterator[tuple[str, str]]:
+    """Every value of an instruction: (field name, axis letter or nothing)."""
+    for name, field in fields_of(item).items():
+        if isinstance(field, PerAxis):
+            yield from ((name, letter) for letter in field.given(getattr(item, name)))
+        yield name, ""
+
+
+@lru_cache(maxsize=32768)
+def problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
+    """Everything to put right in an instruction, errors before warnings."""
+    errors: list[Finding] = []
+    warnings: list[Finding] = []
+    seen: set[str] = set()
+    for name, axis in _places(instruction):
+        problem = problem_of(instruction, name, setup, axis)
+        if problem and problem not in seen:
+            seen.add(problem)
+            errors.append(Finding(name, problem, "error", axis))
+        elif not problem and (warning := warning_of(instruction, name, setup, axis)):
+            warnings.append(Finding(name, warning, "warning", axis))
+    if not errors and (own := instruction.own_problem()):
+        errors.append(Finding(*own))
+    if not errors and (reason := cannot(type(instruction), setup)):
+        errors.append(Finding("", reason))
+    return (*errors, *warnings)
+
+
+def has_errors(instruction: Instruction, setup: Setup) -> bool:
+    """Whether the instruction cannot be sent as it stands."""
+    return any(finding.severity == "error" for finding in problems(instruction, setup))
+
+
+def cannot(kind: type[Instruction], setup: Setup) -> str | None:
+    """Why this machine's controller cannot do the instruction at all; None when it can."""
+    return kind.needs or None
+
+
+def summary(instruction: Instruction) -> str:
+    """Title and group, for lists of search results."""
+    return f"{instruction.group}: {instruction.title}"

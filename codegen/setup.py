@@ -1,0 +1,412 @@
+"""How one machine is configured: controller model, axes with their units and limits, names, connection."""
+
+# ruff: noqa: RUF009  (value() declares a field as dataclasses.field does)
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping
+from enum import StrEnum
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from codegen.fields import AXES, Choice, Dimension, Flag, Number, Text, value
+from codegen.models import MODELS, Model
+from codegen.numbers import nearest, nearest_multiple, parse_number, plain, toward_zero
+from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.nodes import Broken
+from codegen.twoletter.parse import parse
+
+LARGEST = 2147483647  # counts; the widest position register
+ACCELERATION_STEP = 1024  # counts/s²; dmc-1412-1414.txt, AC
+FASTEST_ACCELERATION = 67107840  # counts/s²
+SPEED_STEP = 2  # counts/s
+CALIBRATED_US = 1000  # the loop rate at which speeds and accelerations are calibrated
+LARGEST_ERROR = 32767  # counts
+
+
+class Unit(StrEnum):
+    """Units of length or angle a machine can be set up in."""
+
+    INCH = "inch"
+    FOOT = "foot"
+    MM = "mm"
+    CM = "cm"
+    METRE = "m"
+    DEGREE = "degree"
+    COUNT = "count"
+    OWN = "own"
+
+
+SYMBOLS = {Unit.INCH: "in", Unit.FOOT: "ft", Unit.MM: "mm", Unit.CM: "cm", Unit.METRE: "m", Unit.DEGREE: "deg",
+           Unit.COUNT: "counts"}  # fmt: skip
+
+
+class MotorType(StrEnum):
+    SERVO = "servo"
+    SERVO_REVERSED = "servo_reversed"
+    STEPPER_LOW = "stepper_low"
+    STEPPER_HIGH = "stepper_high"
+    STEPPER_LOW_REVERSED = "stepper_low_reversed"
+    STEPPER_HIGH_REVERSED = "stepper_high_reversed"
+
+
+class EncoderType(StrEnum):
+    QUADRATURE = "quadrature"
+    QUADRATURE_REVERSED = "quadrature_reversed"
+    PULSE = "pulse"
+    PULSE_REVERSED = "pulse_reversed"
+
+
+MOTOR_WORDS = {
+    MotorType.SERVO: "Servo",
+    MotorType.SERVO_REVERSED: "Servo, reversed",
+    MotorType.STEPPER_LOW: "Stepper, active low",
+    MotorType.STEPPER_HIGH: "Stepper, active high",
+    MotorType.STEPPER_LOW_REVERSED: "Stepper, active low, reversed",
+    MotorType.STEPPER_HIGH_REVERSED: "Stepper, active high, reversed",
+}
+ENCODER_WORDS = {
+    EncoderType.QUADRATURE: "Quadrature",
+    EncoderType.QUADRATURE_REVERSED: "Quadrature, reversed",
+    EncoderType.PULSE: "Pulse and direction",
+    EncoderType.PULSE_REVERSED: "Pulse and direction, reversed",
+}
+
+
+def _number(label: str, help: str, low: float = -LARGEST, high: float = LARGEST, **more: Any) -> Number:
+    return Number(label=label, help=help, low=low, high=high, literal=True, required=False, **more)
+
+
+@dc.dataclass(frozen=True, kw_only=True)
+class Axis:
+    """One axis: unit and scale, motor and encoder, gains and limits. Numbers are kept as typed."""
+
+    unit: Unit = value(Choice(label="Unit", kind=Unit, help="The unit of positions and distances."), Unit.INCH)
+    unit_name: str = value(
+        Text(label="Own unit", most=12, when={"unit": Unit.OWN}, help="The name of your own unit, for example turns."),
+        "",
+    )
+    counts_per_unit: str = value(
+        _number("Counts per unit", "Encoder counts (or steps) in one unit of travel.", 0.000001), ""
+    )
+    motor: MotorType = value(
+        Choice(label="Motor", kind=MotorType, words=MOTOR_WORDS, help="The kind of motor."), MotorType.SERVO
+    )
+    main_encoder: EncoderType = value(
+        Choice(label="Main encoder", kind=EncoderType, words=ENCODER_WORDS, help="The encoder the loop is closed on."),
+        EncoderType.QUADRATURE,
+    )
+    aux_encoder: EncoderType = value(
+        Choice(label="Auxiliary encoder", kind=EncoderType, words=ENCODER_WORDS, help="The second encoder, if any."),
+        EncoderType.QUADRATURE,
+    )
+    kp: str = value(_number("Proportional gain", "Stiffness of the loop.", 0, 1023.875, step="0.125"), "")
+    ki: str = value(_number("Integral gain", "Removes a lasting error.", 0, 2047.875, step="0.0078125"), "")
+    kd: str = value(_number("Derivative gain", "Damping of the loop.", 0, 4095.875, step="0.125"), "")
+    fv: str = value(_number("Velocity feed-forward", "Volts in proportion to the speed.", 0, 8191, step="1"), "")
+    fa: str = value(
+        _number("Acceleration feed-forward", "Volts in proportion to the acceleration.", 0, 8191, step="0.25"), ""
+    )
+    smoothing: str = value(_number("Smoothing", "0 (none) to 255 (most).", 0, 255), "")
+    forward_limit: str = value(_number("Forward limit", "Furthest position forward, in units; empty = off."), "")
+    reverse_limit: str = value(_number("Reverse limit", "Furthest position backward, in units; empty = off."), "")
+    error_limit: str = value(_number("Following error", "Largest following error allowed, in units.", 0), "")
+    off_on_error: bool = value(
+        Flag(label="Motor off on error", help="Switch the motor off when the following error is too large."), True
+    )
+    torque_limit: str = value(_number("Torque limit", "Largest motor command.", 0, 9.9982, suffix="V"), "")
+    integrator_limit: str = value(_number("Integrator limit", "Largest integrator output.", 0, 9.9982, suffix="V"), "")
+    offset: str = value(_number("Offset", "Voltage added to the motor command.", -9.9982, 9.9982, suffix="V"), "")
+    maximum_speed: str = value(
+        _number("Top speed", "Fastest speed allowed, in units/s; empty = the controller's.", 0), ""
+    )
+    maximum_acceleration: str = value(
+        _number("Top acceleration", "Hardest acceleration allowed, in units/s²; empty = the controller's.", 0), ""
+    )
+
+    @property
+    def scale(self) -> Fraction:
+        """Counts in one unit; 1 when it was never set up."""
+        number = parse_number(self.counts_per_unit)
+        return number if number is not None and number > 0 else Fraction(1)
+
+    @property
+    def is_set_up(self) -> bool:
+        """Whether somebody entered the scale (an axis in counts needs none)."""
+        return self.unit is Unit.COUNT or parse_number(self.counts_per_unit) is not None
+
+    @property
+    def is_stepper(self) -> bool:
+        return self.motor not in (MotorType.SERVO, MotorType.SERVO_REVERSED)
+
+    @property
+    def symbol(self) -> str:
+        """The unit as it stands behind a number."""
+        return SYMBOLS.get(self.unit) or self.unit_name or "units"
+
+
+@dc.dataclass(frozen=True, kw_only=True)
+class Setup:
+    """One machine: what a technician enters once and every program uses."""
+
+    name: str = value(Text(label="Machine", required=False, help="A name for this machine."), "")
+    model: str = value(Text(label="Controller", help="The type of the controller."), "ssc4")
+    axes: tuple[Axis, Axis, Axis, Axis] = (Axis(), Axis(), Axis(), Axis())
+    input_names: tuple[str, ...] = ("",) * 8
+    output_names: tuple[str, ...] = ("",) * 8
+    sample_us: str = value(
+        Number(label="Loop rate", low=250, high=20000, suffix="µs", literal=True, help="Period of the control loop."),
+        "1000",
+    )
+    address: str = ""
+    baud: str = ""
+    serial_number: str = ""
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @property
+    def _hash(self) -> int:
+        known = self.__dict__.get("_known_hash")
+        if known is None:
+            known = hash(tuple(getattr(self, field.name) for field in dc.fields(self)))
+            object.__setattr__(self, "_known_hash", known)
+        return int(known)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: kept for name, kept in self.__dict__.items() if name != "_known_hash"}
+
+    # ---------------------------------------------------------- the controller
+
+    @property
+    def limits(self) -> Model:
+        """What the controller model can do."""
+        return MODELS[self.model]
+
+    @property
+    def letters(self) -> str:
+        """The axes of the controller."""
+        return self.limits.axes
+
+    @property
+    def inputs(self) -> int:
+        return self.limits.inputs
+
+    @property
+    def outputs(self) -> int:
+        return self.limits.outputs
+
+    def axis(self, letter: str) -> Axis:
+        """The axis of that letter (also one the controller has not)."""
+        return self.axes[AXES.index(letter)]
+
+    def with_axis(self, letter: str, axis: Axis) -> Setup:
+        """A setup with one axis replaced."""
+        x, y, z, w = (axis if each == letter else old for each, old in zip(AXES, self.axes, strict=True))
+        return dc.replace(self, axes=(x, y, z, w))
+
+    def is_command(self, name: str) -> bool:
+        """Whether two letters are a command of the controller."""
+        return name in COMMANDS
+
+    def code_problem(self, text: str) -> str | None:
+        """What is wrong with two-letter code, in one sentence."""
+        return _code_problem(text, self.model)
+
+    # ------------------------------------------------------------ names of I/O
+
+    def input_number(self, text: str) -> int | None:
+        return _channel(text, self.input_names)
+
+    def output_number(self, text: str) -> int | None:
+        return _channel(text, self.output_names)
+
+    @staticmethod
+    def channel_text(text: str, names: tuple[str, ...], number: int | None) -> str:
+        """An input or output as the sentence says it: its number, with its name where it has one."""
+        if number is None or not 1 <= number <= len(names) or not names[number - 1]:
+            return text
+        return f"{number} ({names[number - 1]})"
+
+    # -------------------------------------------------------------- conversion
+
+    @property
+    def sample(self) -> Fraction:
+        """The loop rate in µs."""
+        return abs(parse_number(self.sample_us) or Fraction(CALIBRATED_US))
+
+    def converts(self, dimension: Dimension) -> bool:
+        """Whether values of this dimension are converted before they are sent."""
+        return dimension not in (Dimension.VOLTS, Dimension.NUMBER)
+
+    def factor(self, dimension: Dimension, letter: str) -> Fraction:
+        """What a value in the user's unit is multiplied with to get what the controller counts."""
+        return _factor(self, dimension, letter)
+
+    def counts(self, dimension: Dimension, letter: str, number: Fraction) -> int:
+        """A value as it is sent: rounded to the controller's resolution, never above a maximum."""
+        exact = number * self.factor(dimension, letter)
+        if dimension is Dimension.SPEED:
+            return int(toward_zero(exact, Fraction(SPEED_STEP)))
+        if dimension is Dimension.ACCELERATION:
+            return self._acceleration_counts(exact, letter)
+        if dimension is Dimension.ERROR:
+            return int(exact)
+        if dimension is Dimension.POSITION:
+            return self._position_counts(exact, letter)
+        return nearest(exact)
+
+    def _acceleration_counts(self, exact: Fraction, letter: str) -> int:
+        sent = int(nearest_multiple(exact, Fraction(ACCELERATION_STEP)))
+        highest = self.bounds(Dimension.ACCELERATION, letter)[1] * self.factor(Dimension.ACCELERATION, letter)
+        if sent > highest:
+            sent = int(toward_zero(highest, Fraction(ACCELERATION_STEP)))
+        return max(sent, ACCELERATION_STEP)
+
+    def _position_counts(self, exact: Fraction, letter: str) -> int:
+        sent = nearest(exact)
+        scale = self.factor(Dimension.POSITION, letter)
+        low, high = self.bounds(Dimension.POSITION, letter)
+        if sent > high * scale:
+            return sent - 1
+        return sent + 1 if sent < low * scale else sent
+
+    def from_counts(self, dimension: Dimension, letter: str, counts: int | Fraction) -> Fraction:
+        """What a sent value means in the user's unit."""
+        return Fraction(counts) / self.factor(dimension, letter)
+
+    def bounds(self, dimension: Dimension, letter: str) -> tuple[Fraction, Fraction]:
+        """Lowest and highest value in the user's unit that axis and controller allow."""
+        return _bounds(self, dimension, letter)
+
+    def unit_text(self, dimension: Dimension, letter: str) -> str:
+        """The unit of a dimension: `in`, `in/s`, `ms`."""
+        match dimension:
+            case Dimension.TIME:
+                return "ms"
+            case Dimension.VOLTS:
+                return "V"
+            case Dimension.NUMBER:
+                return ""
+            case Dimension.SPEED:
+                return f"{self._symbol(letter)}/s"
+            case Dimension.ACCELERATION:
+                return f"{self._symbol(letter)}/s²"
+            case _:
+                return self._symbol(letter)
+
+    def _symbol(self, letter: str) -> str:
+        return self.axis(letter).symbol if letter else "units"
+
+
+@lru_cache(maxsize=1024)
+def _factor(setup: Setup, dimension: Dimension, letter: str) -> Fraction:
+    scale = setup.axis(letter).scale if letter else Fraction(1)
+    slow = setup.sample / CALIBRATED_US
+    match dimension:
+        case Dimension.DISTANCE | Dimension.POSITION | Dimension.ERROR:
+            return scale
+        case Dimension.SPEED:
+            return scale * slow
+        case Dimension.ACCELERATION:
+            return scale * slow * slow
+        case Dimension.TIME:
+            return 1 / slow
+        case _:
+            return Fraction(1)
+
+
+def _given(text: str, otherwise: Fraction) -> Fraction:
+    number = parse_number(text)
+    return otherwise if number is None else number
+
+
+@lru_cache(maxsize=1024)
+def _bounds(setup: Setup, dimension: Dimension, letter: str) -> tuple[Fraction, Fraction]:
+    factor = setup.factor(dimension, letter)
+    axis = setup.axis(letter) if letter else Axis()
+    widest = LARGEST / factor
+    match dimension:
+        case Dimension.POSITION:
+            return max(_given(axis.reverse_limit, -widest), -widest), min(_given(axis.forward_limit, widest), widest)
+        case Dimension.DISTANCE:
+            low, high = parse_number(axis.reverse_limit), parse_number(axis.forward_limit)
+            travel = widest if low is None or high is None else min(high - low, widest)
+            return -travel, travel
+        case Dimension.SPEED:
+            fastest = setup.limits.stepper_max_counts_s if axis.is_stepper else setup.limits.servo_max_counts_s
+            return Fraction(0), min(_given(axis.maximum_speed, fastest / factor), fastest / factor)
+        case Dimension.ACCELERATION:
+            hardest = FASTEST_ACCELERATION / factor
+            return Fraction(0), min(_given(axis.maximum_acceleration, hardest), hardest)
+        case Dimension.ERROR:
+            return Fraction(0), LARGEST_ERROR / factor
+        case Dimension.TIME:
+            return Fraction(0), widest
+        case Dimension.VOLTS:
+            return Fraction("-9.9982"), Fraction("9.9982")
+        case _:
+            return Fraction(-LARGEST), Fraction(LARGEST)
+
+
+def _channel(text: str, names: tuple[str, ...]) -> int | None:
+    number = parse_number(text)
+    if number is not None:
+        return int(number) if number.denominator == 1 else None
+    return next((place + 1 for place, name in enumerate(names) if name and name == text.strip()), None)
+
+
+@lru_cache(maxsize=2048)
+def _code_problem(text: str, model: str) -> str | None:
+    limits = MODELS[model]
+    lines = text.split("\n")
+    for number, line in enumerate(lines):
+        where = f"line {number + 1}: " if len(lines) > 1 else ""
+        if len(line) > limits.columns:
+            return f"{where}longer than the {limits.columns} characters of this controller"
+        if not line.isascii() or not line.isprintable():
+            return f"{where}the controller knows plain characters only"
+    for number, statement in parse(text).statements():
+        if isinstance(statement, Broken):
+            where = f"line {number + 1}: " if len(lines) > 1 else ""
+            return f"{where}{statement.rule}: {statement.text.strip()}"
+    return None
+
+
+@dc.dataclass(frozen=True, slots=True)
+class Finding:
+    """Something to put right: which field, one sentence, and how bad it is ("error" or "warning")."""
+
+    field: str
+    message: str
+    severity: str = "error"
+    axis: str = ""
+    step: str = ""
+
+
+def setup_problems(setup: Setup) -> tuple[Finding, ...]:
+    """What is wrong or unfinished in a setup."""
+    found: list[Finding] = []
+    if setup.model not in MODELS:
+        return (Finding("model", f"Controller: there is no model '{setup.model}'"),)
+    for letter in setup.letters:
+        axis = setup.axis(letter)
+        if not axis.is_set_up:
+            text = f"Axis {letter}: the scale was never set up (1 count is taken as 1 {axis.symbol})"
+            found.append(Finding("counts_per_unit", text, "warning", letter))
+        low, high = parse_number(axis.reverse_limit), parse_number(axis.forward_limit)
+        if low is not None and high is not None and low >= high:
+            text = f"Axis {letter}: the reverse limit {plain(low)} must lie below the forward limit {plain(high)}"
+            found.append(Finding("forward_limit", text, "error", letter))
+    for names, field in ((setup.input_names, "input_names"), (setup.output_names, "output_names")):
+        given = [name for name in names if name]
+        for name in dict.fromkeys(name for name in given if given.count(name) > 1):
+            found.append(Finding(field, f"The name '{name}' is used twice"))
+    return tuple(found)
+
+
+def setup_values(setup: Setup) -> Mapping[str, Any]:
+    """All values of a setup by name, for files."""
+    return {field.name: getattr(setup, field.name) for field in dc.fields(setup)}
