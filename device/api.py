@@ -1,4 +1,4 @@
-"""What is connected, as the windows see it: one facade that hands out commands, memory, motion and outputs, and never blocks."""
+"""What is connected, as the windows see it: a facade of commands, memory, motion and outputs that never blocks."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ class Closeable(Protocol):
 
 
 class Controller:
-    """One controller: machine or simulator. Every call returns at once; answers come in futures, happenings in `notices`."""
+    """One controller. Every call returns at once; answers come in futures, happenings in `notices`."""
 
     def __init__(
         self,
@@ -590,9 +590,15 @@ class Memory:
         """What the next power-up will do once the program is burned."""
         listing = self._c.listing
         if listing is None:
-            return "The program in the controller is unknown. Burned, it will be there after the next power-up; if it has an #AUTO it starts by itself."
+            return (
+                "The program in the controller is unknown. Burned, it will be there after the next power-up; "
+                "if it has an #AUTO it starts by itself."
+            )
         if re.search(r"(?m)(^|;)\s*#\s*AUTO\b", listing):
-            return "At the next power-up this program starts by itself at #AUTO: the machine may move as soon as it is switched on."
+            return (
+                "At the next power-up this program starts by itself at #AUTO: "
+                "the machine may move as soon as it is switched on."
+            )
         return "At the next power-up this program is in the controller but does not start: it has no #AUTO."
 
 

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 ALONE = frozenset(["DL", "ED", "QD", "RS", "UL", "CI"])  # nothing can stand behind these on a line
+TELLING = frozenset(
+    ["MG", "TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TC", "TI", "SC", "RL", "LS", "LL", "LV", "LA", "QU"]
+)
 REPLACES = frozenset(["DL", "ED", "RS"])
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}
 USUAL_S = 1.0
@@ -26,7 +29,7 @@ USUAL_S = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """The answer to one line; `certain` False when a program's text may be mixed in; `reason` says why it was refused."""
+    """The answer to one line; `certain` False when a program's text may be in it; `reason` says why it was refused."""
 
     text: str
     accepted: bool
@@ -56,8 +59,9 @@ def typed(controller: Controller, command: str, timeout_s: float | None) -> Step
         return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
     if _plain(command, found, controller):
         return (yield from _with_proof(controller, command, limit))
-    answer = yield Send(data_line(command), Prompts(1), limit)
-    return (yield from _reply(controller, answer, command))
+    count = max(len(parse_line(command).statements), 1)
+    answer = yield Send(data_line(command), Prompts(count), limit, refusal_s=0.05)
+    return (yield from _reply(controller, answer, command, limit))
 
 
 def _plain(command: str, found: list[str], controller: Controller) -> bool:
@@ -73,26 +77,43 @@ def _plain(command: str, found: list[str], controller: Controller) -> bool:
 def _with_proof(controller: Controller, command: str, limit: float) -> Steps[Reply]:
     """The frame behind the command comes only when the command was accepted."""
     nonce = next(controller.nonces)
-    count = len(command.split(";")) if '"' not in command else len(parse_line(command).statements)
-    line = f"{command};{framed(nonce, ())}"
-    answer = yield Send(data_line(line), Proof(nonce, count), limit, refusal_s=0.05)
-    return (yield from _reply(controller, answer, command))
+    statements = parse_line(command).statements
+    expected = Proof(nonce, len(statements), any(_tells(s) for s in statements))
+    answer = yield Send(data_line(f"{command};{framed(nonce, ())}"), expected, limit, refusal_s=0.05)
+    return (yield from _reply(controller, answer, command, limit, nonce))
 
 
-def _reply(controller: Controller, answer: Answer, command: str) -> Steps[Reply]:
+def _tells(statement: nodes.Statement) -> bool:
+    """Whether a statement sends something back."""
+    if isinstance(statement, nodes.Command):
+        if statement.name in TELLING or any(isinstance(item, nodes.Query) for item in statement.arguments):
+            return True
+        return statement.name in ("CW", "BS") and not statement.arguments
+    return isinstance(statement, nodes.Print | nodes.Broken | nodes.Foreign)
+
+
+def _reply(controller: Controller, answer: Answer, command: str, limit: float, nonce: str = "") -> Steps[Reply]:
+    """What an answer means; a refusal is proved by a later read, which also tells the reason."""
+    reply = yield from _judged(controller, answer, command, limit, nonce)
+    controller.link.note("<", f"{reply.text}\n:".lstrip("\n") if reply.accepted else f"? {reply.reason}", "user")
+    return reply
+
+
+def _judged(controller: Controller, answer: Answer, command: str, limit: float, nonce: str) -> Steps[Reply]:
     if answer.kind is Kind.ACCEPTED:
         return Reply(answer.text, True, answer.certain)
     if answer.kind is Kind.SILENT:
         raise LinkLost(f"No answer to “{command}”.")
-    fenced = yield from fence(controller.nonces)
+    wire = controller.link.wire
+    fenced = yield from fence(controller.nonces, max(limit, 0.6))
+    if nonce and nonce in wire.seen:
+        return Reply("", True, False)
     if fenced.kind is not Kind.VALUES:
         raise LinkLost(f"No clear answer to “{command}”.")
-    controller.link.wire.strip_question()
+    wire.strip_question()
     code = int(fenced.values[0])
-    text = answer.text.removesuffix("?").strip()
-    return Reply(
-        text, False, True, code, f"{command}: refused, error {code}, {ERROR_TEXTS.get(code, 'unknown error')}."
-    )
+    words = ERROR_TEXTS.get(code, "unknown error")
+    return Reply("", False, True, code, f"{command}: refused, error {code}, {words}.")
 
 
 def reason(controller: Controller, answer: Answer, expression: str) -> Steps[LinkError]:
@@ -111,7 +132,7 @@ def reason(controller: Controller, answer: Answer, expression: str) -> Steps[Lin
 def halt(controller: Controller) -> Steps[Reply]:
     """`HX`, then `ST`."""
     answer = yield from proved(controller.nonces, "HX;ST", USUAL_S)
-    return (yield from _reply(controller, answer, "HX;ST"))
+    return (yield from _reply(controller, answer, "HX;ST", USUAL_S))
 
 
 def _know_program(controller: Controller) -> Steps[None]:

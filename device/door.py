@@ -1,4 +1,4 @@
-"""The door of the link: what may leave now. In Watch only reads without side effects and STOP; while a question waits only its answer and STOP."""
+"""The door of the link: in Watch only harmless reads and STOP leave; to a waiting question only its answer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Programs in and out of a controller: keep the old one, send, verify by reading back; every failure is one sentence and claims nothing."""
+"""Programs in and out of a controller: keep the old one, send, read back; a failure is one sentence."""
 
 from __future__ import annotations
 
@@ -233,7 +233,10 @@ def refusal(code: int, lines: Sequence[str], model: Model | None) -> str:
     if code == 60:
         columns, most = (model.columns, model.lines) if model else (80, 1000)
         longest = max(range(len(lines)), key=lambda n: len(lines[n]), default=0)
-        return f"error 60, a line is too long or there are too many (at most {most} lines of {columns}; the longest is line {longest})."
+        return (
+            "error 60, a line is too long or there are too many "
+            f"(at most {most} lines of {columns}; the longest is line {longest})."
+        )
     if code == 61:
         seen: set[str] = set()
         for number, name in labels:

@@ -1,7 +1,7 @@
 """Hold-to-run: a lease that ends by itself, over moves that end by themselves.
 
-On the controller it is a relative move of at most speed × 0.4 s and the stopping distance ahead, lengthened with IP while the
-lease is renewed; so a dead computer or a pulled cable ends in a normal deceleration.
+On the controller it is a relative move of at most speed × 0.4 s and the stopping distance ahead, lengthened with IP
+while the lease is renewed; so a dead computer or a pulled cable ends in a normal deceleration.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ class Lease:
     def steps(self) -> Steps[None]:
         """Starts, lengthens while held, stops; ends when the stop was accepted."""
         for command in (
-            f"AC {self._list(self.acceleration)};DC {self._list(self.deceleration)};SP {self._list(abs(self.speed_counts_s))}",
+            f"AC {self._list(self.acceleration)};DC {self._list(self.deceleration)}",
+            f"SP {self._list(abs(self.speed_counts_s))}",
             f"PR {self._list(self.distance)};BG {self.axis}",
         ):
             if not self.held:

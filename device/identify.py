@@ -1,4 +1,4 @@
-"""Who is there: the revision text, the controller type, its axes and its serial number; an unknown text is never guessed."""
+"""Who is there: revision text, controller type, axes and serial number; an unknown text is never guessed."""
 
 from __future__ import annotations
 

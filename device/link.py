@@ -1,8 +1,9 @@
-"""The one thread that owns the transport: stop first, then lease, people, downloads, polls; nothing it offers blocks a caller."""
+"""The one thread that owns the transport: stop first, then lease, people, downloads, polls; no call blocks."""
 
 from __future__ import annotations
 
 import itertools
+import re
 import threading
 from collections import deque
 from collections.abc import Callable
@@ -18,6 +19,7 @@ T = TypeVar("T")
 AHEAD = 32  # bytes that may wait in the operating system
 PROMPT_QUIET_S = 0.06  # text without a line end that stands this long may be a question
 SILENCES = 3  # unanswered exchanges in a row that mean "does not answer"
+PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$")  # what follows a typed command on the wire
 ANSWER = Answer(Kind.ACCEPTED)
 
 
@@ -180,7 +182,7 @@ class Link:
             if isinstance(step, Send) and step.extends:
                 self._deadline = now + step.timeout_s
         for line in self.wire.lines():
-            self._note("*", line, "program")
+            self.note("*", line, "program")
             self._owner.text(line)
         rest = self.wire.rest
         if rest and rest != self._told_rest and now - self._last_byte >= PROMPT_QUIET_S:
@@ -226,7 +228,11 @@ class Link:
 
     def _seems_refused(self, step: Send) -> bool:
         """A `?` came and nothing after it; only a fence can tell whether it was the answer."""
-        return step.refusal_s > 0 and self.wire.question and self._clock() - self._last_byte >= step.refusal_s
+        if not step.refusal_s or not self.wire.question:
+            return False
+        now = self._clock()
+        chatty = now - (self._deadline - step.timeout_s) >= 5 * step.refusal_s
+        return chatty or now - self._last_byte >= step.refusal_s
 
     def _start_next(self) -> None:
         while self._incoming:
@@ -266,7 +272,10 @@ class Link:
         self._deadline = self._clock() + step.timeout_s
         if step.expect is None:
             self.sure = False
-        self._note(">", step.data.decode("ascii", "replace").rstrip("\r"), task.source)
+            if task.priority is Priority.STOP:
+                self.wire.owe(step.data.count(b"\r"))
+        shown = step.data.decode("ascii", "replace").rstrip("\r")
+        self.note(">", PROOF.sub("", shown) if task.source == "user" else shown, task.source)
         self._owner.sent(step.data, task.source)
 
     # ------------------------------------------------------------- the steps
@@ -344,5 +353,6 @@ class Link:
         if not self._out and task is not None and isinstance(task.step, Send):
             self._deadline = self._clear_at + task.step.timeout_s
 
-    def _note(self, direction: str, text: str, source: str) -> None:
+    def note(self, direction: str, text: str, source: str) -> None:
+        """One line for the terminal's traffic."""
         self.record.append(Traffic(next(self._numbers), self._clock(), direction, text, source))

@@ -1,4 +1,4 @@
-"""Live values: one row each, how it is read and shown; values stay in the controller's own units (counts, counts/s, V)."""
+"""Live values: one row each, how it is read and shown, in the controller's own units (counts, counts/s, V)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What to ask, how often, from what is being watched: at most 30 % of the line, and few commands of the interpreter's time."""
+"""What to ask and how often, from what is watched: at most 30 % of the line and little of the interpreter's time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from device.wire import FRAME_COLUMNS, Answer, Frame, Kind, Shape, framed
 
 SHARE = 0.30  # of the line's time
 LEAST_S = 0.025  # between requests: one command takes 0.5 ms, so 2 % of the interpreter
-SLOW_S = 0.5  # period of values that change rarely
+SLOW_S = 1.0  # period of values that change rarely
 ALWAYS = ("thread0", "thread1", "thread2", "thread3", "time")
 REFUSALS = 3  # a value refused this often is not asked again
 
@@ -91,7 +91,7 @@ class Poller:
             self._measure(start)
 
     def _due(self, now: float) -> tuple[str, ...]:
-        """Fast values in every cycle, slow ones and the threads twice a second."""
+        """Fast values in every cycle, slow ones and the threads once a second."""
         wanted = self.wanted()
         always = tuple(key for key in ALWAYS if key in self.ring.columns)
         slow = now >= self._slow_due

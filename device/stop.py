@@ -1,14 +1,15 @@
 """STOP: one table of state → bytes → proof. Every stop in the program comes through here. It is no emergency stop.
 
-| state of the line                                   | bytes                              | proof                        |
-|-----------------------------------------------------|------------------------------------|------------------------------|
-| command mode                                        | `ST` CR                            | `HX`; no `_BG`, no `_XQn`    |
-| DL, QD, ED, data mode, IN, half a line, XOFF, unknown | `11 1B 5C` `ST` CR `ST` CR       | the same                     |
-| daisy chain                                         | the same with `!ST`                | the same                     |
-| second press, or not still in time                  | the same with `AB`                 | the same                     |
+| state of the line                       | bytes                        | proof                     |
+|-----------------------------------------|------------------------------|---------------------------|
+| command mode                            | `ST` CR                      | `HX`; no `_BG`, no `_XQn` |
+| DL, QD, ED, data mode, IN, half a line, | `11 1B 5C` `ST` CR `ST` CR   | the same                  |
+| XOFF, unknown                           |                              |                           |
+| daisy chain                             | the same with `!ST`          | the same                  |
+| second press, or not still in time      | the same with `AB`           | the same                  |
 
-`11` is XON and leaves the line editor, `1B` leaves operator data mode, `5C` (backslash) ends DL and QD. The first `ST` may be taken as the
-answer of an IN; the second acts.
+`11` is XON and leaves the line editor, `1B` leaves operator data mode, `5C` (backslash) ends DL and QD. The first
+`ST` may be taken as the answer of an IN; the second acts.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class Priority(IntEnum):
 class Send:
     """Bytes to send and what to wait for.
 
-    Without `expect` the answer comes as soon as the bytes are handed over. `hold` keeps the line for the task that sends.
+    Without `expect` the answer comes as soon as the bytes are handed over. `hold` keeps the line for this task.
     `extends`: the time-out starts again with every byte that comes.
     `watch_for`: any of these bytes, coming while the task holds the line, ends the step as refused.
     `refusal_s`: a `?` followed by so much silence ends the wait early, as uncertain.

@@ -1,10 +1,11 @@
 """Bytes ↔ replies: pairs what the controller sends with what was asked; no input or output here.
 
-Live reads are framed: `MG{^30},"k7",_TPX{F10.0},{^31}` answers `<30>k7 0000000021<31>` CR LF and a prompt. The two letters change
-with every request, every number has a fixed width, and both ends are marked, so text that a program sends in between
-can delay or spoil a read (it is then discarded as uncertain) but never be taken for one. Typed commands are followed by an empty frame
-on the same line: the controller drops the rest of a refused line, so the frame proves that the command was accepted.
-Unsolicited text is what is left. Bit 7, which some controllers set on unsolicited text, is masked.
+Live reads are framed: `MG{^30},"k7",_TPX{F10.0},{^31}` answers `<30>k7 0000000021<31>` CR LF and a prompt. The two
+letters change with every request, every number has a fixed width, and both ends are marked, so text that a program
+sends in between can delay or spoil a read (it is then discarded as uncertain) but never be taken for one. Typed
+commands are followed by an empty frame on the same line: the controller drops the rest of a refused line, so the
+frame proves that the command was accepted. Unsolicited text is what is left. Bit 7, which some controllers set on
+unsolicited text, is masked.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 OPEN, CLOSE = 30, 31  # the characters that frame a read
+LATE = re.compile("\x1e([a-z0-9]{2})[ 0-9.-]*\x1f\r\n")
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
 
 
@@ -54,6 +56,7 @@ class Proof:
 
     nonce: str
     prompts: int = 1
+    data: bool = True  # whether the command sends something back besides its prompts
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +127,7 @@ class Wire:
         self._question = False
         self._echoes: deque[str] = deque(maxlen=8)
         self._lines: deque[str] = deque()
+        self.seen: deque[str] = deque(maxlen=16)  # marks of frames that came too late
 
     # ------------------------------------------------------------- expecting
 
@@ -178,7 +182,7 @@ class Wire:
         return found
 
     def give_up(self) -> Answer:
-        """Ends the present expectation without its answer; what came is text, and the answer says uncertain or silent."""
+        """Ends the expectation without its answer: what came is text, and the answer says uncertain or silent."""
         came = bytes(self._buffer).decode("ascii")
         something = bool(came) or self._question
         came += "?" if self._question and "?" not in came else ""
@@ -249,6 +253,10 @@ class Wire:
         self._drop(start + len(mark))
         self._owe_one()
         text, certain = _without_prompts(window, expected.prompts)
+        if text and not (expected.data and certain):
+            self._add_text(text.replace("\n", "\r\n") + "\r\n")
+        if not expected.data:
+            return Answer(Kind.ACCEPTED)
         return Answer(Kind.ACCEPTED, text=text, certain=certain)
 
     def _prompts(self, count: int) -> Answer | None:
@@ -324,7 +332,7 @@ class Wire:
             self._add_text(text)
 
     def _add_text(self, text: str) -> None:
-        self._text += text
+        self._text = LATE.sub(self._late, self._text + text)
         while "\n" in self._text:
             line, self._text = self._text.split("\n", 1)
             line = self._unprompted(line.rstrip("\r"), take=True)
@@ -332,9 +340,19 @@ class Wire:
             if not echo or line != echo:
                 self._lines.append(line.removesuffix(echo))
 
+    def _late(self, match: re.Match[str]) -> str:
+        """A frame nobody waits for any more is no text, but its mark is remembered."""
+        self.seen.append(match.group(1))
+        self._owed += 1
+        return ""
+
+    def owe(self, prompts: int) -> None:
+        """So many prompts will come that no expectation takes."""
+        self._owed += prompts
+
     def _unprompted(self, line: str, take: bool) -> str:
         owed = self._owed
-        while owed and line.startswith(":"):
+        while owed and line[:1] in (":", "?"):
             line, owed = line[1:], owed - 1
         if take:
             self._owed = owed
@@ -343,13 +361,14 @@ class Wire:
 
 def _without_prompts(window: str, prompts: int) -> tuple[str, bool]:
     """The data lines of an accepted line's answer, and whether nothing else was in it."""
-    exact = re.fullmatch("(?:((?:[^\r\n:?]*\r\n)*):)" * prompts, window) if prompts < 40 else None
+    exact = re.fullmatch("((?:[^\r\n:?]*\r\n)*):" * prompts, window) if prompts < 40 else None
     if exact is not None:
         data = "".join(group for group in exact.groups() if group)
         return data.replace("\r\n", "\n").rstrip("\n"), True
     for _ in range(prompts):
-        place = window.rfind("\n:")
-        if place >= 0:
+        if window.endswith(":"):
+            window = window[:-1]
+        elif (place := window.rfind("\n:")) >= 0:
             window = window[: place + 1] + window[place + 2 :]
         else:
             window = window.replace(":", "", 1)
