@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib
+import inspect
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -61,39 +62,33 @@ def plain_loop() -> Loop:
     return run
 
 
-def register_part() -> None:
-    """Teaches numba `layout.part` as bare pointer arithmetic; its own slices count references, 60 ns each."""
+def register_slots() -> None:
+    """Teaches numba `layout.slots` as bare pointer arithmetic; its own slices count references, 60 ns each."""
     from numba.core import types
     from numba.extending import intrinsic, overload
-    from numba.np.arrayobj import populate_array
+    from numba.np import arrayobj
 
-    @intrinsic  # type: ignore[untyped-decorator]
-    def pointer_part(context: Any, array: Any, axis: Any) -> Any:
+    def pointer(context: Any, array: Any, first: Any, length: Any) -> Any:
         def build(target: Any, builder: Any, signature: Any, values: Any) -> Any:
             make = target.make_array(signature.return_type)
             whole, piece = make(target, builder, values[0]), make(target, builder)
-            offset = builder.add(
-                target.get_constant(types.intp, layout.AXIS),
-                builder.mul(values[1], target.get_constant(types.intp, layout.STRIDE)),
-            )
-            populate_array(
-                piece,
-                data=builder.gep(whole.data, [offset]),
-                shape=[target.get_constant(types.intp, layout.STRIDE)],
-                strides=[target.get_constant(types.intp, 8)],
-                itemsize=target.get_constant(types.intp, 8),
-                meminfo=None,
-            )
+            eight = target.get_constant(types.intp, 8)
+            data = builder.gep(whole.data, [values[1]])
+            fill: Any = arrayobj.populate_array
+            fill(piece, data=data, shape=[values[2]], strides=[eight], itemsize=eight, meminfo=None)
             return piece._getvalue()
 
-        return array(array, types.intp), build
+        return array(array, types.intp, types.intp), build
 
-    @overload(layout.part)  # type: ignore[untyped-decorator]
-    def compiled_part(S: Any, axis: Any) -> Any:
-        def implementation(S: Any, axis: Any) -> Any:
-            return pointer_part(S, axis)
+    pointer_slots: Any = intrinsic(pointer)
+
+    def compiled_slots(S: Any, first: Any, length: Any) -> Any:
+        def implementation(S: Any, first: Any, length: Any) -> Any:
+            return pointer_slots(S, first, length)
 
         return implementation
+
+    overload(layout.slots)(compiled_slots)
 
 
 @functools.cache
@@ -104,11 +99,11 @@ def compiled_loop() -> Loop:
         from numba.extending import register_jitable
     except ImportError as missing:
         raise CompilerMissing(f"numba can not be loaded: {missing}") from missing
-    register_part()
-    for name in MODULES[1:]:
+    register_slots()
+    for name in MODULES:
         module = importlib.import_module(f"{PACKAGE}.{name}")
         for value in list(vars(module).values()):
-            if callable(value) and getattr(value, "__module__", "") == module.__name__ and not isinstance(value, type):
+            if inspect.isfunction(value) and value.__module__ == module.__name__ and value is not layout.slots:
                 register_jitable(forceinline=True)(value)
     loop = importlib.import_module(f"{PACKAGE}.loop")
     settings: Any = numba.config

@@ -282,9 +282,14 @@ def axis_base(axis: int) -> int:
     return AXIS + STRIDE * axis
 
 
+def slots(S: State, first: int, length: int) -> State:
+    """Some of the vector, over the same memory (compiled: without counting references)."""
+    return S[first : first + length]
+
+
 def part(S: State, axis: int) -> State:
-    """The slots of one axis, over the same memory."""
-    return S[AXIS + STRIDE * axis : AXIS + STRIDE * axis + STRIDE]
+    """The slots of one axis."""
+    return slots(S, AXIS + STRIDE * axis, STRIDE)
 
 
 def trace_columns(axes: int) -> int:

@@ -37,6 +37,7 @@ from device.simulator.kernel.layout import (
     TRIPS,
     State,
     part,
+    slots,
 )
 from device.simulator.kernel.plant import advance_plant
 from device.simulator.kernel.profile import advance_profile, follow_gear, smooth
@@ -92,6 +93,11 @@ def sample(S: State, axes: int, moment: int) -> None:
 
 
 def run(S: State, trace: State, n: int) -> int:
+    """`advance` over the whole of both arrays."""
+    return advance(slots(S, 0, len(S)), slots(trace, 0, len(trace)), n)
+
+
+def advance(S: State, trace: State, n: int) -> int:
     """Runs up to `n` samples and ends after the one in which a watch trips, an event is raised or the trace is full."""
     axes = int(S[AXES])
     count = int(S[SAMPLE])
