@@ -113,9 +113,7 @@ _DMC1412 = Model(
     gear_master="auxiliary encoder",
     address="SA",
     power_up_motor_on=True,
-    missing=frozenset(
-        ["LM", "LI", "LE", "VM", "VP", "CR", "VE", "VS", "VA", "VD", "VR", "VT", "ES", "TN", "CS", "AV", "GA", "EA"]
-    ),
+    missing=frozenset("LM LI LE VM VP CR VE VS VA VD VR VT ES TN CS AV GA EA".split()),  # noqa: SIM905
 )
 _DMC1414 = replace(_DMC1412, name="dmc1414", title="DMC-1414, one axis, internal amplifier", commutation=False)
 

@@ -5,15 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from codegen.twoletter.commands import RECORDABLE
+from codegen.twoletter.array_arguments import dimension, freed, source, whole_array
+from codegen.twoletter.braces import brace, local_format
 from codegen.twoletter.expression import (
     LATER_LETTERS,
     LETTERS,
-    LONGEST_NAME,
     arithmetic,
     expression,
     in_square_brackets,
-    operand,
     quoted,
     variable,
 )
@@ -37,51 +36,12 @@ from codegen.twoletter.nodes import (
     Variable,
 )
 from codegen.twoletter.rows import Row, Takes
-from codegen.twoletter.tokens import COMPARISON, END, LABEL, NAME, OPERAND, STRING, Cursor
+from codegen.twoletter.tokens import COMPARISON, END, LABEL, NAME, STRING, Cursor
 
 LONGEST_TEXT = 72  # characters between the quotes of MG and IN
 LABEL_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,6}\Z").match
-_NUMBER_FORMAT = re.compile(r"([FZ$])(\d{1,2})(?:\.(\d))?\Z").match
-_STRING_FORMAT = re.compile(r"S([1-6])?\Z").match
-_CHARACTER = re.compile(r"\^(\d{1,3})\Z").match
 
 Arguments = tuple[Argument, ...]
-
-
-# ------------------------------------------------------------------- formats
-
-
-def brace(cursor: Cursor) -> Format | Character | Port | NoLineEnd:
-    """`{F4.2}`, `{$4.2}`, `{S3}`, `{^13}`, `{P2}`, `{N}`."""
-    refused = cursor.refuse("bad-format", 53)
-    later = cursor.refuse("later-form", 53, foreign=True)
-    text, start, end = cursor.braces()
-    span = Span(start, end)
-    if text in ("P1", "P2"):
-        return Port(int(text[1]), span)
-    if text == "N":
-        return NoLineEnd(span)
-    if match := _STRING_FORMAT(text):
-        return Format("S", int(match[1] or 6), 0, span)
-    if match := _CHARACTER(text):
-        if not 1 <= int(match[1]) <= 255:
-            raise refused
-        return Character(int(match[1]), span)
-    match = _NUMBER_FORMAT(text)
-    if match is None or int(match[2]) > 10 or int(match[3] or 0) > 4:
-        raise refused
-    if match[1] == "Z":
-        raise later
-    return Format(match[1], int(match[2]), int(match[3] or 0), span)
-
-
-def local_format(cursor: Cursor) -> Format:
-    """The local format of a printed value."""
-    refused = cursor.refuse("bad-format", 53)
-    node = brace(cursor)
-    if not isinstance(node, Format):
-        raise refused
-    return node
 
 
 def _closing_format(cursor: Cursor) -> Arguments:
@@ -328,63 +288,6 @@ def _with_string_format(cursor: Cursor, place: Variable | Element) -> Formatted:
     return Formatted(place, form, Span(place.span.start, form.span.end))
 
 
-# -------------------------------------------------------------------- arrays
-
-
-def _array_name(cursor: Cursor) -> str:
-    name = cursor.value
-    if cursor.kind != NAME or not name[0].isupper() or len(name) > LONGEST_NAME:
-        raise cursor.refuse("bad-array", 57)
-    cursor.advance()
-    return name
-
-
-def _empty_brackets(cursor: Cursor) -> int:
-    """`[]`; the column behind it."""
-    if not cursor.take("[") or not cursor.at("]"):
-        raise cursor.refuse("square-brackets", 55)
-    end = cursor.end
-    cursor.advance()
-    return end
-
-
-def _whole_array(cursor: Cursor) -> Dimension:
-    start = cursor.start
-    name = _array_name(cursor)
-    return Dimension(name, None, True, Span(start, _empty_brackets(cursor)))
-
-
-def _dimension(cursor: Cursor) -> Dimension:
-    start = cursor.start
-    name = _array_name(cursor)
-    size, end = in_square_brackets(cursor)
-    return Dimension(name, size, True, Span(start, end))
-
-
-def _freed(cursor: Cursor) -> Dimension:
-    """`name`, `name[]`, `name[0]`, `*` or `*[0]`."""
-    start, end = cursor.start, cursor.end
-    if cursor.take("*"):
-        name = "*"
-    elif cursor.kind == NAME and len(cursor.value) <= LONGEST_NAME:
-        name = cursor.value
-        cursor.advance()
-    else:
-        raise cursor.refuse("bad-name", 9)
-    if not cursor.at("["):
-        return Dimension(name, None, False, Span(start, end))
-    before = cursor.end
-    cursor.advance()
-    if cursor.at("]"):
-        end = cursor.end
-        cursor.advance()
-        return Dimension(name, None, True, Span(start, end))
-    cursor.end = before - 1
-    cursor.advance()
-    size, end = in_square_brackets(cursor)
-    return Dimension(name, size, True, Span(start, end))
-
-
 def _names(item: Callable[[Cursor], Dimension | Operand]) -> Callable[[Cursor, Row], Arguments]:
     def read(cursor: Cursor, row: Row) -> Arguments:
         if cursor.kind == END:
@@ -399,22 +302,10 @@ def _names(item: Callable[[Cursor], Dimension | Operand]) -> Callable[[Cursor, R
     return read
 
 
-def _source(cursor: Cursor) -> Operand:
-    """An operand RD can record; some of them (`_SH`, `_NO`) exist only there."""
-    name, suffix = cursor.value[1:3], cursor.value[3:]
-    if cursor.kind != OPERAND or name not in RECORDABLE:
-        raise cursor.refuse("bad-operand", 58)
-    if suffix in LETTERS or not suffix:
-        node = Operand(name, LETTERS.get(suffix, ""), Span(cursor.start, cursor.end))
-        cursor.advance()
-        return node
-    return operand(cursor)
-
-
 def _array_range(cursor: Cursor, row: Row) -> Arguments:
     if cursor.kind == END:
         return ()
-    array = _whole_array(cursor)
+    array = whole_array(cursor)
     if not cursor.take(","):
         return (array,)
     return (array, *_list(cursor, row, len(row.fields) - 1))
@@ -452,10 +343,10 @@ READERS: dict[Takes, Callable[[Cursor, Row], Arguments]] = {
     Takes.SEGMENT_AXES: _segment,
     Takes.SEGMENT: _segment,
     Takes.TARGET: _target,
-    Takes.DIMENSIONS: _names(_dimension),
-    Takes.DEALLOCATE: _names(_freed),
-    Takes.ARRAYS: _names(_whole_array),
-    Takes.SOURCES: _names(_source),
+    Takes.DIMENSIONS: _names(dimension),
+    Takes.DEALLOCATE: _names(freed),
+    Takes.ARRAYS: _names(whole_array),
+    Takes.SOURCES: _names(source),
     Takes.ARRAY_RANGE: _array_range,
     Takes.MESSAGE: _message,
     Takes.INPUT: _input,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from codegen.twoletter.arguments import LABEL_NAME, READERS, assigned, index_and_numbers, local_format
+from codegen.twoletter.arguments import LABEL_NAME, READERS, assigned, index_and_numbers
+from codegen.twoletter.braces import local_format
 from codegen.twoletter.commands import COMMANDS, KEYWORDS, LATER
 from codegen.twoletter.expression import expression, operand, variable
 from codegen.twoletter.nodes import (

@@ -42,8 +42,7 @@ class Build:
 
     def factor(self, operand: Operand, axis: str) -> Fraction | None:
         """Counts of a live value in one user unit; None for values that are no positions, speeds or accelerations."""
-        row = COMMANDS.get(operand.name)
-        dimension = _DIMENSIONS.get(row.unit) if row is not None else None
+        dimension = _dimension(operand)
         if dimension is None:
             return None
         letter = operand.suffix if operand.suffix and operand.suffix in AXES else axis or "X"
@@ -56,6 +55,16 @@ class Build:
             for letter, text in zip(AXES, texts, strict=True)
             if text.strip()
         }
+
+
+def _dimension(operand: Operand) -> Dimension | None:
+    row = COMMANDS.get(operand.name)
+    return _DIMENSIONS.get(row.unit) if row is not None and row.operand else None
+
+
+def is_counted(operand: Operand) -> bool:
+    """Whether a live value is a position, speed or acceleration in counts."""
+    return _dimension(operand) is not None
 
 
 def raw(text: str) -> str:
