@@ -335,7 +335,10 @@ class Wire:
         self._text = LATE.sub(self._late, self._text + text)
         while "\n" in self._text:
             line, self._text = self._text.split("\n", 1)
-            line = self._unprompted(line.rstrip("\r"), take=True)
+            raw = line.rstrip("\r")
+            line = self._unprompted(raw, take=True)
+            if raw and not line:
+                continue
             echo = next((echo for echo in self._echoes if line.endswith(echo)), "")
             if not echo or line != echo:
                 self._lines.append(line.removesuffix(echo))
