@@ -146,9 +146,14 @@ def _each_axis(item: Any, parts: _Parts, setup: Setup) -> str:
 
         groups.setdefault(_filled(parts, words, _no_each), []).append(letter)
     written = [text.replace("\0", joined(tuple(letters))) for text, letters in groups.items()]
-    return (
-        "; ".join(text if not place else text[:1].lower() + text[1:] for place, text in enumerate(written)) or MISSING
-    )
+    if not written:
+        raise _Absent
+    return "; ".join(text if not place else _small(text) for place, text in enumerate(written))
+
+
+def _small(text: str) -> str:
+    """The same with a small first letter, unless an axis letter stands there."""
+    return text if text[:1] in AXES and not text[1:2].isalpha() else text[:1].lower() + text[1:]
 
 
 def _no_each(parts: _Parts) -> str:

@@ -35,8 +35,8 @@ class AccelDecel(Instruction):
     group = Group.CONFIGURATION
     section = "C"
     sentence = (
-        "<[Accelerate {axis} at {acceleration}, decelerate at {deceleration}"
-        "|Accelerate {axis} at {acceleration}|Decelerate {axis} at {deceleration}]>"
+        "[<[Accelerate {axis} at {acceleration}, decelerate at {deceleration}"
+        "|Accelerate {axis} at {acceleration}|Decelerate {axis} at {deceleration}]>|Accelerate …]"
     )
     help = "Sets the acceleration and deceleration that moves use until an instruction changes them."
 
@@ -52,6 +52,10 @@ class AccelDecel(Instruction):
             return "acceleration", "Enter an acceleration or a deceleration for an axis"
         return None
 
+    @classmethod
+    def example(cls) -> AccelDecel:
+        return cls(acceleration=("64", "", "", ""), deceleration=("64", "", "", ""))
+
 
 @dc.dataclass(frozen=True, kw_only=True)
 class AutoExecution(Instruction):
@@ -62,6 +66,10 @@ class AutoExecution(Instruction):
     section = "C"
     sentence = "Start this program when the controller is switched on"
     help = "Once the program is burned, it starts at every power-up by itself, motion included."
+
+    @classmethod
+    def example(cls) -> AutoExecution:
+        return cls()
 
 
 class Declare(StrEnum):
@@ -184,3 +192,7 @@ class VariableArray(Instruction):
         if self.mode is Declare.FORMAT and self.hexadecimal and self.digits.strip() in ("0", "9", "10"):
             return "digits", "Digits must lie between 1 and 8 for hexadecimal numbers"
         return None
+
+    @classmethod
+    def example(cls) -> VariableArray:
+        return cls(variable="LEN", number="4")

@@ -29,6 +29,10 @@ class Label(Instruction):
         LabelName(label="Name", defines=True, help="A letter and up to 6 letters or digits, in capitals."), ""
     )
 
+    @classmethod
+    def example(cls) -> Label:
+        return cls(name="A")
+
 
 @dc.dataclass(frozen=True, kw_only=True)
 class Wait(Instruction):
@@ -57,6 +61,10 @@ class Wait(Instruction):
     def samples_note(self, setup: Setup) -> str:
         """`(20 samples = 19.5 ms)`"""
         return samples_note(self.time, setup, self.exactly)
+
+    @classmethod
+    def example(cls) -> Wait:
+        return cls(time="20")
 
 
 def samples_of(time: str, setup: Setup, exactly: bool = False) -> int | None:
@@ -139,6 +147,10 @@ class Jump(Instruction):
         "",
     )
 
+    @classmethod
+    def example(cls) -> Jump:
+        return cls(target="A", when=JumpIf.CONDITION, condition="LEN>5")
+
 
 class RepeatMode(StrEnum):
     COUNT = "count"
@@ -187,6 +199,10 @@ class Repeat(Instruction):
         ),
         "",
     )
+
+    @classmethod
+    def example(cls) -> Repeat:
+        return cls(count="10")
 
 
 class Routine(StrEnum):
@@ -250,6 +266,10 @@ class Subroutine(Instruction):
         """The label it starts with, without `#`."""
         return self.name if self.routine is Routine.USER else self.routine.value
 
+    @classmethod
+    def example(cls) -> Subroutine:
+        return cls(name="CUT")
+
 
 class EndOf(StrEnum):
     SUBROUTINE = "subroutine"
@@ -302,3 +322,7 @@ class End(Instruction):
         ),
         False,
     )
+
+    @classmethod
+    def example(cls) -> End:
+        return cls()

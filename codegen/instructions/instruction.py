@@ -38,6 +38,11 @@ class Instruction:
     was: ClassVar[tuple[str, ...]] = ()  # former class names in files
     renamed: ClassVar[dict[str, str]] = {}  # former field name -> present one
 
+    @classmethod
+    def example(cls) -> Instruction:
+        """One that is filled in, for the help page."""
+        raise NotImplementedError
+
     def own_problem(self) -> tuple[str, str] | None:
         """A contradiction between the fields: (field, sentence)."""
         return None

@@ -78,3 +78,7 @@ class Output(Instruction):
         ),
         "",
     )
+
+    @classmethod
+    def example(cls) -> Output:
+        return cls()

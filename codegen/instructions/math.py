@@ -39,3 +39,7 @@ class MathematicalEquation(Instruction):
     equations: tuple[Equation, ...] = value(
         ListOf(label="Equations", row=Equation, most=40, help="Worked out one after the other."), (Equation(),)
     )
+
+    @classmethod
+    def example(cls) -> MathematicalEquation:
+        return cls(equations=(Equation(variable="LEN", expression="LEN*2"),))

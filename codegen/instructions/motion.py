@@ -157,11 +157,8 @@ class SingleAxisMove(Instruction):
         Choice(
             label="Then",
             kind=WaitFor,
-            words={
-                WaitFor.NOTHING: "",
-                WaitFor.PROFILE: "wait until the profile has ended",
-                WaitFor.POSITION: "wait until in position",
-            },
+            words=WAIT_WORDS,
+            phrases=WAIT_PHRASES,
             when={"mode": (MoveMode.BY, MoveMode.TO), "begin": True},
             help="Hold the program until the profile has ended, or until the encoder has arrived too.",
         ),
@@ -180,6 +177,10 @@ class SingleAxisMove(Instruction):
         "",
     )
 
+    @classmethod
+    def example(cls) -> SingleAxisMove:
+        return cls(distance="4", speed="2")
+
 
 @dc.dataclass(frozen=True, kw_only=True)
 class MotionParameters(Instruction):
@@ -187,7 +188,7 @@ class MotionParameters(Instruction):
 
     title = "Motion Parameters"
     group = Group.MOTION
-    sentence = "<Set {axis} to[ {speed}][, accelerating at {acceleration}][, decelerating at {deceleration}]>"
+    sentence = "[<Set {axis}:[ speed {speed}][ acceleration {acceleration}][ deceleration {deceleration}]>|Set motion parameters …]"
     help = "Sets speed, acceleration and deceleration for the moves that follow; empty values keep what the axis has."
 
     speed: PerAxisText = value(PerAxis(label="Speed", of=SPEED, required=False, help="Top speed of moves."), NONE)
@@ -202,6 +203,10 @@ class MotionParameters(Instruction):
         if self.speed == NONE and self.acceleration == NONE and self.deceleration == NONE:
             return "speed", "Enter a speed, an acceleration or a deceleration for an axis"
         return None
+
+    @classmethod
+    def example(cls) -> MotionParameters:
+        return cls(speed=("2", "1", "", ""), acceleration=("64", "", "", ""))
 
 
 class Which(StrEnum):
@@ -230,6 +235,10 @@ class BeginMotion(Instruction):
         Which.AXES,
     )
     axes: str = value(AxisSet(label="Axes", when={"which": Which.AXES}, help="The axes that start together."), "X")
+
+    @classmethod
+    def example(cls) -> BeginMotion:
+        return cls(axes="XY")
 
 
 @dc.dataclass(frozen=True, kw_only=True)
@@ -266,6 +275,10 @@ class StopMotion(Instruction):
         True,
     )
 
+    @classmethod
+    def example(cls) -> StopMotion:
+        return cls()
+
 
 class Homing(StrEnum):
     SWITCH = "switch"
@@ -285,8 +298,9 @@ class Home(Instruction):
     title = "Home"
     group = Group.MOTION
     sentence = (
-        "{routine} of {axes}[ going {direction}][ at {speed}][, accelerating at {acceleration}]"
-        "[, decelerating at {deceleration}][, {begin}][, then {wait}]"
+        "{routine} of {axes}[ going {direction}]"
+        "[ (<{axis}[ at {speed}][, accelerating at {acceleration}][, decelerating at {deceleration}]>)]"
+        "[, {begin}][, then {wait}]"
     )
     help = (
         "Home: finds the switch, comes back slowly, then finds the index pulse; that place becomes position 0 "
@@ -357,3 +371,7 @@ class Home(Instruction):
                 if letter in self.axes and not text:
                     return "speed", f"{letter}: Speed is missing (the index search needs it for its direction)"
         return None
+
+    @classmethod
+    def example(cls) -> Home:
+        return cls(speed=("1", "", "", ""), deceleration=("128", "", "", ""))

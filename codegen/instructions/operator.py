@@ -141,6 +141,12 @@ class Print(Instruction):
         Flag(label="No line end", phrase="without a line end", help="The next print goes on in the same line."), False
     )
 
+    @classmethod
+    def example(cls) -> Print:
+        return cls(
+            items=(PrintItem(text="Length "), PrintItem(kind=ItemKind.VALUE, expression="LEN", shape=Shape.DECIMAL))
+        )
+
 
 class AnswerKind(StrEnum):
     NUMBER = "number"
@@ -186,3 +192,7 @@ class UserInterface(Instruction):
         ),
         "6",
     )
+
+    @classmethod
+    def example(cls) -> UserInterface:
+        return cls(prompt="Length", variable="LEN")

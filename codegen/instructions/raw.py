@@ -20,6 +20,10 @@ class TwoLetterCode(Instruction):
 
     text: str = value(Code(label="Code", help="One statement or more, each on a line of its own or joined by ;"), "")
 
+    @classmethod
+    def example(cls) -> TwoLetterCode:
+        return cls(text="PR 4000;BG X\nAM X")
+
 
 @dc.dataclass(frozen=True, kw_only=True)
 class Comment(Instruction):
@@ -33,3 +37,7 @@ class Comment(Instruction):
 
     text: str = value(Text(label="Text", lines=True, required=False, help="What the reader should know."), "")
     in_code: bool = value(Flag(label="Keep in the code", help="Send it as a line that the controller skips."), False)
+
+    @classmethod
+    def example(cls) -> Comment:
+        return cls(text="Feeds the wire.", in_code=True)

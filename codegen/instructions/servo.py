@@ -41,3 +41,7 @@ class LoopRate(Instruction):
         ),
         False,
     )
+
+    @classmethod
+    def example(cls) -> LoopRate:
+        return cls(period="500")

@@ -246,3 +246,7 @@ class WaitForCondition(Instruction):
         ):
             return "time_out", "At most: name the axes that have this time"
         return None
+
+    @classmethod
+    def example(cls) -> WaitForCondition:
+        return cls(kind=WaitKind.INPUT)

@@ -1,0 +1,78 @@
+"""Changing the unit or the scale of a machine under a program: keep the lengths, or keep the counts."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from fractions import Fraction
+from typing import Any, Literal
+
+from codegen.document import Document
+from codegen.expressions import Bad, in_counts, write
+from codegen.fields import AXES, Dimension, ListOf, PerAxis, PerAxisText, Quantity, fields_of, value_of
+from codegen.numbers import plain
+from codegen.program import Section, Steps, with_section
+from codegen.setup import Axis, Setup
+from codegen.twoletter.emit.build import is_counted
+
+IN_UNITS = (Dimension.DISTANCE, Dimension.POSITION, Dimension.SPEED, Dimension.ACCELERATION, Dimension.ERROR)
+AXIS_VALUES = ("forward_limit", "reverse_limit", "error_limit", "maximum_speed", "maximum_acceleration")
+Keep = Literal["units", "counts"]
+
+
+def with_setup(document: Document, setup: Setup, keep: Keep = "units") -> Document:
+    """The document on another setup; `counts` rewrites typed numbers so that the machine does what it did."""
+    if keep == "units":
+        return dc.replace(document, setup=setup)
+    factors = {letter: document.setup.axis(letter).scale / setup.axis(letter).scale for letter in AXES}
+    program = document.program
+    for section in Section:
+        program = with_section(program, section, _steps(program.section(section), factors))
+    for letter in AXES:
+        old = document.setup.axis(letter)
+        setup = setup.with_axis(letter, _axis(setup.axis(letter), old, factors[letter]))
+    return dc.replace(document, program=program, setup=setup)
+
+
+def _steps(steps: Steps, factors: dict[str, Fraction]) -> Steps:
+    return tuple(
+        dc.replace(step, instruction=_item(step.instruction, factors), body=_steps(step.body, factors))
+        for step in steps
+    )
+
+
+def _item(item: Any, factors: dict[str, Fraction]) -> Any:
+    """An instruction or a row with its typed numbers in the new units."""
+    new: dict[str, Any] = {}
+    for name, field in fields_of(item).items():
+        value = getattr(item, name)
+        match field:
+            case Quantity(dimension=dimension) if dimension in IN_UNITS:
+                letter = getattr(item, field.axis, "") if field.axis else ""
+                new[name] = scaled_text(value, factors.get(letter, Fraction(1)))
+            case PerAxis(of=Quantity(dimension=dimension)) if dimension in IN_UNITS:
+                new[name] = _per_axis(value, factors)
+            case ListOf():
+                new[name] = tuple(_item(row, factors) for row in value)
+    return dc.replace(item, **new) if new else item
+
+
+def _per_axis(texts: PerAxisText, factors: dict[str, Fraction]) -> PerAxisText:
+    x, y, z, w = (scaled_text(text, factors[letter]) for letter, text in zip(AXES, texts, strict=True))
+    return x, y, z, w
+
+
+def scaled_text(text: str, factor: Fraction) -> str:
+    """A typed number times `factor`; in an expression everything but live values, which convert themselves."""
+    value = value_of(text)
+    if factor == 1 or isinstance(value, Bad):
+        return text
+    if isinstance(value, Fraction):
+        return plain(value * factor)
+    return write(in_counts(value, factor, lambda operand: factor if is_counted(operand) else None))
+
+
+def _axis(new: Axis, old: Axis, factor: Fraction) -> Axis:
+    """Limits that were not changed by hand keep their counts."""
+    kept = (name for name in AXIS_VALUES if getattr(new, name) == getattr(old, name))
+    rewritten: dict[str, Any] = {name: scaled_text(getattr(new, name), factor) for name in kept}
+    return dc.replace(new, **rewritten)
