@@ -24,8 +24,9 @@ from codegen.read import sentence
 from device.simulator.times import TICKS
 from resources import path as resource
 
-EXAMPLE = "examples/wire_cutter.tlp"
-SECONDS = 8.0
+EXAMPLE = "examples/wire-cutter.tlp"
+SECONDS = 7.5
+REST_SAMPLES = 20
 STIMULUS = "ms,signal,value\n0,in1,0\n500,in1,1\n550,in1,0\n3500,in1,1\n3550,in1,0\n"
 
 
@@ -64,16 +65,16 @@ def events(columns: Columns) -> list[str]:
 
 
 def moves(columns: Columns) -> list[tuple[float, str]]:
-    """Starts and ends of the profile of axis X."""
-    position = columns["x_commanded"]
-    moving = np.concatenate(([False], np.diff(position) != 0, [False]))
-    edges = np.flatnonzero(np.diff(moving.astype(np.int8)))
-    found = []
-    for place in edges:
-        where = min(int(place), len(position) - 1)
-        word = "X starts at" if not moving[place] else "X has come to"
-        found.append((float(columns["ms"][where]), f"{word} {position[where]:.0f} counts"))
-    return found
+    """Starts and ends of the moves of axis X; a rest shorter than a few samples belongs to the move."""
+    position, times = columns["x_commanded"], columns["ms"]
+    steps = np.flatnonzero(np.diff(position))
+    if not len(steps):
+        return []
+    gaps = np.flatnonzero(np.diff(steps) > REST_SAMPLES)
+    starts = steps[np.concatenate(([0], gaps + 1))]
+    ends = steps[np.concatenate((gaps, [len(steps) - 1]))] + 1
+    found = [(float(times[place]), f"X starts at {position[place]:.0f} counts") for place in starts]
+    return found + [(float(times[place]), f"X has come to {position[place]:.0f} counts") for place in ends]
 
 
 def picture(columns: Columns, document: Document) -> str:

@@ -19,19 +19,33 @@ from app.cli.trace import Columns, Trace, check_ending, write_trace
 from codegen.models import Model
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.simulator.plant import Plant
-from device.simulator.plant_file import PlantUnreadable, load_plants
 from device.simulator.simulation import Simulation
 from device.simulator.times import TICKS, TICKS_PER_MS
 from device.simulator.twoletter.memory import DownloadRefused
 from device.simulator.twoletter.state import CommandError
 
 SLICE_S = 0.02
+STATE_KEYS = (
+    "messages",
+    "errors",
+    "axes",
+    "inputs",
+    "outputs",
+    "analog",
+    "error_output",
+    "variables",
+    "strings",
+    "arrays",
+    "threads",
+)
 
 
 def read_plants(path: str | None) -> dict[str, Plant] | None:
     """The mechanics behind the controller, where they are given."""
     if path is None:
         return None
+    from device.simulator.plant_file import PlantUnreadable, load_plants
+
     try:
         return load_plants(Path(path))
     except (PlantUnreadable, OSError) as problem:
@@ -137,7 +151,7 @@ class Outcome:
             "stopped": self.stopped,
             "virtual_seconds": round(self.virtual_seconds, 6),
             "wall_seconds": round(self.wall_seconds, 6),
-            **{key: value for key, value in self.state.items() if key != "controller"},
+            **{key: self.state[key] for key in STATE_KEYS},
         }
 
 
@@ -183,6 +197,8 @@ def run(options: argparse.Namespace) -> int:
     text = read_text(Path(options.stimulus)) if options.stimulus else loaded.stimulus
     happenings = read_stimulus(text, name) if text.strip() else []
     outcome = perform(loaded, options, happenings, None if options.json else print)
+    for notice in outcome.state.get("notices", ()):
+        print(f"twoletter: {notice}", file=sys.stderr)
     if options.json:
         print(json.dumps(outcome.as_json(loaded.model), ensure_ascii=False))
     else:

@@ -27,15 +27,16 @@ class Trace:
     threads: int
     axes: str
     every: int = 1
+    began: int = 0
     blocks: list[NDArray[np.float64]] = field(default_factory=list)
-    anchors: list[tuple[int, int]] = field(default_factory=list)
+    times: list[NDArray[np.float64]] = field(default_factory=list)
     changes: list[tuple[int, int, int]] = field(default_factory=list)
 
     def start(self) -> None:
         """Begins to record."""
+        self.began = self.simulation.ticks
         self.simulation.on_trace = lambda ticks, thread, line: self.changes.append((ticks, thread, line))
         self.simulation.motion.trace(BLOCK_ROWS, self.every)
-        self.anchors.append((self.simulation.motion.sample, self.simulation.ticks))
 
     def longest_slice(self) -> int:
         """Ticks after which the rows must be taken."""
@@ -43,17 +44,18 @@ class Trace:
 
     def take(self) -> None:
         """Takes the rows recorded so far."""
-        self.blocks.append(self.simulation.motion.trace_rows().copy())
-        self.simulation.motion.trace_clear()
-        self.anchors.append((self.simulation.motion.sample, self.simulation.ticks))
+        motion, clock = self.simulation.motion, self.simulation.unit.clock
+        rows = motion.trace_rows().copy()
+        motion.trace_clear()
+        self.blocks.append(rows)
+        self.times.append(clock.tick - (motion.sample - rows[:, 0]) * clock.period)
 
     def columns(self) -> Columns:
-        """The record as named columns; time is true even where the sample time was changed between two takes."""
+        """The record as named columns; time is true even where the sample time was changed."""
         width = 1 + len(KINDS) * len(self.axes) + 2
         rows = np.concatenate(self.blocks) if self.blocks else np.zeros((0, width))
-        known = np.array(self.anchors, dtype=np.float64)
-        ticks = np.interp(rows[:, 0], known[:, 0], known[:, 1])
-        found: Columns = {"ms": (ticks - known[0, 1]) / TICKS_PER_MS}
+        ticks = np.concatenate(self.times) if self.times else np.zeros(0)
+        found: Columns = {"ms": (ticks - self.began) / TICKS_PER_MS}
         for index, axis in enumerate(self.axes.lower()):
             for place, kind in enumerate(KINDS):
                 found[f"{axis}_{kind}"] = rows[:, 1 + index * len(KINDS) + place]
