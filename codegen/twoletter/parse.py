@@ -196,13 +196,13 @@ def _is_element_assignment(cursor: Cursor) -> bool:
 
 def _assignment(cursor: Cursor, name: str) -> Statement:
     """`name=…`: a variable, a keyword that is printed, or one axis of a command (`PRX=5`)."""
-    if name in COMMANDS:
-        raise cursor.refuse("assigned-command", 1)
     if name in KEYWORDS:
         keyword = Keyword(name, Span(cursor.start, cursor.end))
         cursor.advance()
         cursor.advance()
         return _print(cursor, keyword, "not-assignable", 9)
+    if name in COMMANDS:
+        raise cursor.refuse("assigned-command", 1)
     row = COMMANDS.get(name[:2])
     if row is not None and len(name) == 3 and name[2] in _AXIS_LETTERS and row.takes is Takes.AXIS_NUMBERS:
         return _axis_command(cursor, row, name)

@@ -100,6 +100,8 @@ def range_text(place: Row | Field | FunctionRow, model: Model) -> str:
     if place.unit == "digits":
         return "0 to 10 digits (1 to 8 hexadecimal) and 0 to 4 decimals"
     low, high = place.range_for(model)
+    if low is None and high is None:
+        return place.unit
     limits = f"{format_number_of(low)} to {format_number_of(high)}"
     return f"{limits} {place.unit}".rstrip() + (" without 0" if 0 in place.never else "")
 
