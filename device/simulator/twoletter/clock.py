@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from device.simulator.kernel import layout
 from device.simulator.motion import Motion
 
 
@@ -26,19 +27,20 @@ class Clock:
         return self.tick + (sample - self.sample) * self.period
 
     def sync(self, until: int) -> bool:
-        """Runs the motion up to `until`; True when it stopped early because something happened (then see `tick`)."""
+        """Runs the motion towards `until`; True when something happened in the last sample run (then see `tick`)."""
         due = (until - self.tick) // self.period
         if due <= 0:
             return False
         ran = self.motion.run(due)
         self.tick += ran * self.period
         self.sample += ran
-        return ran < due
+        state = self.motion._state
+        return ran < due or state[layout.TRIPS] != 0.0 or state[layout.EVENTS] != 0.0
 
     def catch_up(self, until: int) -> None:
         """Runs the motion up to `until` whatever happens on the way."""
-        while self.sync(until):
-            pass
+        while self.tick + self.period <= until:
+            self.sync(until)
 
     def set_period(self, period: int) -> None:
         """A new sample time, from the next sample on; call it caught up."""

@@ -78,7 +78,7 @@ class Port:
     # operator data
     last_character: int = 0
     last_text: bytes = b""
-    data_status: int = -1
+    data_status: int = 0
     data_text: bytearray = field(default_factory=bytearray)
     running: bool = False  # for the scheduler: ports are never threads
 
@@ -111,6 +111,8 @@ class State:
     switches: list[int] = field(default_factory=lambda: [-1, -1, -1])  # CN
     port_two: list[int] = field(default_factory=lambda: [9600, 0, 0, 0])  # CC
     interrupts: list[int] = field(default_factory=lambda: [0, 0, 0])  # CI
+    comint_armed: bool = False
+    comint_due: bool = False
     inputs: int = 255  # levels, bit 0 = input 1
     analog: list[int] = field(default_factory=lambda: [0] * 8)  # 1/65536 V
     abort_input: bool = True

@@ -20,6 +20,7 @@ class Interpreter:
 
     def __init__(self, unit: Unit) -> None:
         self.unit = unit
+        self._alarmed = True  # a condition of an automatic routine may hold: look after every sample
 
     # -------------------------------------------------------------------- time
 
@@ -52,10 +53,10 @@ class Interpreter:
         if target < clock.tick + clock.period:
             clock.now = target
             return False
-        early = clock.sync(target)
-        clock.now = max(clock.now, clock.tick)
-        if self._after_sample() or early:
-            return True
+        if clock.sync(target) or self._alarmed:
+            clock.now = max(clock.now, clock.tick)
+            if self._after_sample() or clock.tick + clock.period <= target:
+                return True
         clock.now = target
         return False
 
@@ -78,12 +79,15 @@ class Interpreter:
         """Brings ports and waits up to now, and gives the interpreter its next command."""
         unit = self.unit
         state, now = unit.state, unit.clock.now
+        self._alarmed |= unit.changed
         if 0 <= state.reset_at <= now:
             unit.finish_reset()
         for uart, port in zip(unit.uarts, state.ports, strict=True):
             uart.run(now)
             if uart.buffer or uart.overruns:
                 wire.take_characters(unit, port)
+        if state.comint_due:
+            self._call_comint()
         for strand in state.strands():
             wait = strand.wait
             if wait is not None and (wait.wake <= now or (wait.kind == "output" and self._has_room(wait))):
@@ -114,8 +118,8 @@ class Interpreter:
             return
         unit.changed = False
         plain = not any(isinstance(strand, Port) for strand in ready) and not self._traces()
-        if plain and not self._watching():
-            self._burst(ready, limit)
+        if plain:
+            self._burst(ready, limit, watched=self._watching())
         else:
             self._one(self._in_turn(ready))
         if self._ready():
@@ -134,27 +138,30 @@ class Interpreter:
         turn = self.unit.state.turn
         return min(ready, key=lambda strand: (self._place(strand) <= turn, self._place(strand)))
 
-    def _burst(self, ready: list[Strand], limit: int) -> None:
+    def _burst(self, ready: list[Strand], limit: int, *, watched: bool) -> None:
         """Serves threads round and round, one command each, until one of them changes what is ready."""
         unit = self.unit
         state, clock, ops = unit.state, unit.clock, unit.code.ops
-        at, count = state.command_at, len(ready)
-        index = ready.index(self._in_turn(ready))
+        at, index = state.command_at, ready.index(self._in_turn(ready))
         threads = [strand for strand in ready if isinstance(strand, Thread)]
-        thread = threads[index]
+        thread, count = threads[index], len(threads)
+        next_sample = clock.tick + clock.period if watched else FOREVER
         try:
-            if count == 1:
-                while at <= limit and not unit.changed:
-                    clock.now = at
-                    thread.pc = ops[thread.pc](thread)
-                    at += COMMAND
-            else:
-                while at <= limit and not unit.changed:
-                    thread = threads[index]
-                    clock.now = at
-                    thread.pc = ops[thread.pc](thread)
-                    at += COMMAND
-                    index = index + 1 if index + 1 < count else 0
+            while at <= limit and not unit.changed:
+                if at >= next_sample:
+                    if self._alarmed:
+                        if self._sync(at):
+                            break
+                    elif clock.sync(at):
+                        clock.now = max(clock.now, clock.tick)
+                        if self._after_sample() or clock.tick + clock.period <= at:
+                            break
+                    next_sample = clock.tick + clock.period
+                thread = threads[index]
+                clock.now = at
+                thread.pc = ops[thread.pc](thread)
+                at += COMMAND
+                index = index + 1 if index + 1 < count else 0
         except (CommandError, EvaluationError) as refusal:
             unit.fail(thread, refusal.code, thread.pc)
             at += COMMAND
@@ -278,6 +285,8 @@ class Interpreter:
             if wait is not None and wait.watches and all(motion.tripped(watch) for watch in wait.watches):
                 self.release(strand)
                 happened = True
+        if motion.take_events():
+            self._alarmed = True
         if unit.routines and unit.state.threads[0].running:
             happened |= self._call_routines()
         return happened
@@ -291,20 +300,26 @@ class Interpreter:
             and all(frame.kind != label for frame in main.stack)
         )
 
+    def _call_comint(self) -> None:
+        """A character or line came that CI wants to know of (dmc-1412-1414.txt l.3576)."""
+        state, main = self.unit.state, self.unit.state.threads[0]
+        state.comint_due = False
+        if self._may_call(main, "COMINT"):
+            state.comint_armed = False
+            self.unit.call(main, "COMINT", main.pc)
+
     def _call_routines(self) -> bool:
-        """#ININT, #LIMSWI and #POSERR are called while their condition holds (dmc-1412-1414.txt l.2979-3042)."""
+        """#LIMSWI, #POSERR and #ININT are called while their condition holds (dmc-1412-1414.txt l.2979-3042)."""
         unit = self.unit
         state, motion, main = unit.state, unit.clock.motion, unit.state.threads[0]
-        axes = unit.axes()
-        if self._may_call(main, "LIMSWI") and any(motion.driving_into_limit(axis) for axis in axes):
-            unit.call(main, "LIMSWI", main.pc)
-            return True
-        if self._may_call(main, "POSERR") and any(motion.error_exceeded(axis) for axis in axes):
-            unit.call(main, "POSERR", main.pc)
-            return True
-        low = ~state.inputs & state.interrupt_mask
-        if state.interrupt_armed and low and self._may_call(main, "ININT"):
-            state.interrupt_armed = False
-            unit.call(main, "ININT", main.pc)
-            return True
+        at_limit = any(motion.driving_into_limit(axis) for axis in unit.axes())
+        beyond = any(motion.error_exceeded(axis) for axis in unit.axes())
+        low = state.interrupt_armed and ~state.inputs & state.interrupt_mask
+        self._alarmed = at_limit or beyond or state.interrupt_armed
+        for due, label in ((at_limit, "LIMSWI"), (beyond, "POSERR"), (low, "ININT")):
+            if due and self._may_call(main, label):
+                if label == "ININT":
+                    state.interrupt_armed = False
+                unit.call(main, label, main.pc)
+                return True
         return False

@@ -170,7 +170,7 @@ class Unit:
         """Bytes that a port expects."""
         self.uarts[port - 1].send(data, self.clock.now)
         if self.uarts[port - 1].room() < 0:
-            self.stalled = port
+            self.stalled, self.changed = port, True
 
     def unsolicited(self, port: int, text: str, *, ends: bool = False) -> None:
         """Bytes nobody asked for (dmc-1412-1414.txt l.1325): CW decides about bit 7 and a full FIFO."""
@@ -185,7 +185,7 @@ class Unit:
             data = data[: max(0, uart.room())]
         uart.send(data, self.clock.now)
         if uart.room() < 0:
-            self.stalled = port
+            self.stalled, self.changed = port, True
 
     def notice(self, text: str) -> None:
         """Something the host should tell its user, once."""

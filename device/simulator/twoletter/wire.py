@@ -8,6 +8,7 @@ from codegen.twoletter.fixed import read_number
 from codegen.twoletter.nodes import Comment
 from codegen.twoletter.parse import parse_line
 from device.simulator.twoletter import editor, memory
+from device.simulator.twoletter.behaviour import operator
 from device.simulator.twoletter.behaviour.messages import answer_input
 from device.simulator.twoletter.state import CommandError, Port, Wait
 
@@ -41,6 +42,8 @@ def _character(unit: Unit, port: Port, byte: int) -> None:
         editor.key(unit, port, byte)
     elif port.mode in ("download", "array"):
         _data_character(unit, port, byte)
+    elif operator.data_mode(unit, port) and waiting_input(unit, port) is None:
+        operator.character(unit, port, byte)
     elif port.control:
         port.control = False
         if byte == CONTROL_V:

@@ -12,6 +12,7 @@ from device.simulator.twoletter.behaviour import (
     io,
     messages,
     motion,
+    operator,
     programs,
     status,
     system,
@@ -34,6 +35,7 @@ DOES: Final[dict[str, Callable[[Unit, Strand, Call], None]]] = {
     **configuration.DOES,
     **system.DOES,
     **programs.DOES,
+    **operator.DOES,
 }
 READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     **motion.READS,
@@ -50,4 +52,4 @@ COMPILES: Final[dict[str, Callable[[Command, int, Unit, Code | None], Op]]] = {
     **messages.COMPILES,
     **programs.COMPILES,
 }
-KEYWORDS: Final[dict[str, Callable[[Unit], int]]] = {}
+KEYWORDS = operator.KEYWORDS

@@ -120,7 +120,7 @@ def end(command: Command, following: int, unit: Unit, code: Code | None) -> Op:
             finish(unit, strand)
             return strand.pc
         if interrupt and strand.stack[-1].kind == "COMINT":
-            unit.state.interrupts[:] = [abs(item) for item in unit.state.interrupts]
+            unit.state.comint_armed = True
         return come_back(unit, strand, restore=restore)
 
     return op

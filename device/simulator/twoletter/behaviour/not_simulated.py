@@ -11,7 +11,6 @@ _GEAR = "gearing is not part of this version"
 _RECORD = "automatic capture is not part of this version"
 _LATCH = "the position latch is not part of this version"
 _COMMUTATION = "sine commutation is not part of this version"
-_DATA = "operator data mode is not part of this version"
 
 REASONS: Final[dict[str, str]] = {
     **dict.fromkeys(
@@ -23,5 +22,4 @@ REASONS: Final[dict[str, str]] = {
     **dict.fromkeys(["RA", "RD", "RC"], _RECORD),
     **dict.fromkeys(["AL", "RL"], _LATCH),
     **dict.fromkeys(["BA", "BB", "BC", "BD", "BI", "BM", "BO", "BS", "BZ"], _COMMUTATION),
-    "CI": _DATA,
 }
