@@ -26,7 +26,7 @@ _TOKEN = re.compile(
     | (?P<function>@[A-Za-z0-9]*)
     | (?P<label>\#[ \t]*[A-Za-z0-9]*)
     | (?P<comparison><[ \t]*[=>]|>[ \t]*=|[<>=])
-    | (?P<sign>.)
+    | (?P<sign>[^ \t])
     )""",
     re.VERBOSE | re.DOTALL,
 ).match

@@ -89,7 +89,11 @@ FORMATS = st.one_of(
 
 
 def _lists(places: int, least: int = 1, value: st.SearchStrategy[str] = EXPRESSIONS) -> st.SearchStrategy[str]:
-    return st.lists(st.one_of(value, value, st.just("")), min_size=max(least, 1), max_size=max(places, 1)).map(",".join)
+    """Comma lists with empty places; not empty as a whole where a value is needed."""
+    lists = st.lists(st.one_of(value, value, st.just("")), min_size=max(least, 1), max_size=max(places, 1)).map(
+        ",".join
+    )
+    return lists.filter(bool) if least else lists
 
 
 def _target() -> st.SearchStrategy[str]:
