@@ -65,6 +65,7 @@ class Field:
         default_factory=dict
     )  # {"mode": Mode.BY} or {"mode": (Mode.BY, Mode.TO)}: names of siblings
     required: bool = True
+    warns: ClassVar[bool] = False  # whether rounding may change the value
 
     def empty(self, value: Any) -> bool:
         """Whether nothing has been entered."""
@@ -131,12 +132,13 @@ class Quantity(Field):
     positive: bool = False  # must be above zero
     signed: bool = False  # a speed that may be negative
     literal: bool = False  # no expressions
+    warns: ClassVar[bool] = True
 
     def wrong(self, value: str, context: Context) -> str | None:
         if problem := _numeric_problem(self.label, value):
             return problem
         number = value_of(value)
-        if not isinstance(number, Fraction):
+        if type(number) is not Fraction:
             return f"{self.label} must be a plain number" if self.literal else None
         return self.range_problem(number, context)
 
@@ -150,7 +152,8 @@ class Quantity(Field):
         if self.signed:
             low = -high
         if low <= number <= high:
-            return None
+            too_small = self.positive and context.setup.counts(self.dimension, context.axis, number) == 0
+            return f"{self.label} is too small for this axis" if too_small else None
         return f"{self.label} must lie between {_bound(low)} and {_bound(high)}{behind}"
 
     def text(self, value: str, context: Context) -> str:
@@ -178,14 +181,15 @@ class Quantity(Field):
 
     def exact_counts(self, number: Fraction, context: Context) -> Counts:
         """The counts of a number, and how far rounding moved it."""
-        exact = number * context.setup.factor(self.dimension, context.axis)
-        sent = context.setup.counts(self.dimension, context.axis, number)
+        sent = context.setup.sent(self.dimension, context.axis, number)
         warning = None
-        if abs(sent - exact) * 1000 > abs(exact):
-            really = context.setup.from_counts(self.dimension, context.axis, sent)
+        if sent.moved:
+            really = context.setup.from_counts(self.dimension, context.axis, sent.counts)
             warning = f"{self.label} will really be {_bound(really)} {self.unit(context)}".rstrip()
-        unit = {Dimension.SPEED: "counts/s", Dimension.ACCELERATION: "counts/s²", Dimension.TIME: "samples"}
-        return Counts(f"{sent} {unit.get(self.dimension, 'counts')}", warning)
+        return Counts(f"{sent.counts} {COUNTED.get(self.dimension, 'counts')}", warning)
+
+
+COUNTED = {Dimension.SPEED: "counts/s", Dimension.ACCELERATION: "counts/s²", Dimension.TIME: "samples"}
 
 
 def _bound(number: Fraction) -> str:
@@ -202,12 +206,13 @@ class Number(Field):
     suffix: str = ""  # unit shown behind the field
     literal: bool = False
     whole: bool = False
+    warns: ClassVar[bool] = True
 
     def wrong(self, value: str, context: Context) -> str | None:
         if problem := _numeric_problem(self.label, value):
             return problem
         number = value_of(value)
-        if not isinstance(number, Fraction):
+        if type(number) is not Fraction:
             return f"{self.label} must be a plain number" if self.literal else None
         if self.whole and number.denominator != 1:
             return f"{self.label} must be a whole number"
@@ -495,8 +500,10 @@ def fields_of(item: Any) -> Mapping[str, Field]:
 
 def is_shown(item: Any, name: str) -> bool:
     """Whether the field is to be shown, by the values of its siblings."""
-    field = fields_of(item)[name]
-    for sibling, wanted in field.when.items():
+    when = fields_of(item)[name].when
+    if not when:
+        return True
+    for sibling, wanted in when.items():
         present = getattr(item, sibling)
         if present not in wanted if isinstance(wanted, tuple) else present != wanted:
             return False

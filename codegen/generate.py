@@ -228,7 +228,10 @@ class _Pass:
     def step(self, step: Step, section: Section) -> None:
         made = self.made[id(step)]
         if made.errors or made.warnings:
-            self.problems += [dc.replace(finding, step=step.id) for finding in (*made.errors, *made.warnings)]
+            self.problems += [
+                Finding(finding.field, finding.message, finding.severity, finding.axis, step.id)
+                for finding in (*made.errors, *made.warnings)
+            ]
         if made.errors:
             problem = made.errors[0].message
             self.lines.append(Line(f"' {problem}", step.id, problem))
@@ -325,17 +328,21 @@ def joined_lines(lines: list[Line], columns: int) -> Iterator[Line]:
     group: list[Line] = []
     length = 0
     for line in lines:
-        alone = line.problem or line.text.startswith(("'", "REM", "NO"))
-        if group and (alone or line.text.startswith("#") or length + 1 + len(line.text) > columns):
+        text = line.text
+        starts = text[:1] in STARTING and (text[0] in "#'" or text[:2] == "NO" or text[:3] == "REM")
+        if group and (starts or length + 1 + len(text) > columns):
             yield _joined(group)
             group, length = [], 0
+        length += len(text) + (1 if group else 0)
         group.append(line)
-        length += len(line.text) + (1 if length else 0)
-        if alone:
+        if starts and text[0] != "#":
             yield _joined(group)
             group, length = [], 0
     if group:
         yield _joined(group)
+
+
+STARTING = frozenset("#'NR")
 
 
 def _joined(group: list[Line]) -> Line:
@@ -343,10 +350,10 @@ def _joined(group: list[Line]) -> Line:
         return group[0]
     spans: list[tuple[int, int, str]] = []
     start = 0
-    for line in group:
-        spans.append((start, start + len(line.text), line.step))
-        start += len(line.text) + 1
-    return Line(";".join(line.text for line in group), group[0].step, "", tuple(spans))
+    for text, step, _, _ in group:
+        spans.append((start, start + len(text), step))
+        start += len(text) + 1
+    return Line(";".join([line[0] for line in group]), group[0].step, "", tuple(spans))
 
 
 def used_names(document: Document) -> frozenset[str]:

@@ -90,13 +90,3 @@ def nearest(number: Fraction) -> int:
     twice = 2 * abs(number)
     whole = (twice.numerator + twice.denominator) // (2 * twice.denominator)
     return -whole if number < 0 else whole
-
-
-def nearest_multiple(number: Fraction, step: Fraction) -> Fraction:
-    """The multiple of `step` nearest to `number`; a half goes away from zero."""
-    return nearest(number / step) * step
-
-
-def toward_zero(number: Fraction, step: Fraction) -> Fraction:
-    """The multiple of `step` next to `number` on the side of zero."""
-    return int(number / step) * step

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, TypeAlias
@@ -188,7 +188,7 @@ def context_of(item: Any, name: str, setup: Setup, axis: str = "") -> Context:
     """The context of a field: the setup, and the axis its sibling names."""
     field = fields_of(item)[name]
     if not axis and isinstance(field, Quantity) and field.axis:
-        letter = getattr(item, field.axis, "")
+        letter: str = getattr(item, field.axis, "")
         axis = letter if letter and letter in AXES else ""
     return Context(setup, axis)
 
@@ -249,32 +249,47 @@ def unit_text(item: Any, name: str, setup: Setup, axis: str = "") -> str:
     return field.unit(context_of(item, name, setup, axis))
 
 
-def _places(item: Any) -> Iterator[tuple[str, str]]:
-    """Every value of an instruction: (field name, axis letter or nothing)."""
-    for name, field in fields_of(item).items():
-        if isinstance(field, PerAxis):
-            yield from ((name, letter) for letter in field.given(getattr(item, name)))
-        yield name, ""
-
-
 @lru_cache(maxsize=32768)
 def problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
     """Everything to put right in an instruction, errors before warnings."""
-    errors: list[Finding] = []
-    warnings: list[Finding] = []
-    seen: set[str] = set()
-    for name, axis in _places(instruction):
-        problem = problem_of(instruction, name, setup, axis)
-        if problem and problem not in seen:
-            seen.add(problem)
-            errors.append(Finding(name, problem, "error", axis))
-        elif not problem and (warning := warning_of(instruction, name, setup, axis)):
-            warnings.append(Finding(name, warning, "warning", axis))
-    if not errors and (own := instruction.own_problem()):
-        errors.append(Finding(*own))
-    if not errors and (reason := cannot(type(instruction), setup)):
-        errors.append(Finding("", reason))
-    return (*errors, *warnings)
+    found: list[Finding] = []
+    for name, field in fields_of(instruction).items():
+        value = getattr(instruction, name)
+        if field.when and not is_shown(instruction, name):
+            continue
+        if field.empty(value):
+            if field.required:
+                found.append(Finding(name, f"{field.label} is missing"))
+        elif isinstance(field, PerAxis):
+            for letter in field.given(value):
+                text = value[AXES.index(letter)]
+                problem = field.problem_of(value, letter, Context(setup, letter))
+                _judge(found, name, field.of, text, Context(setup, letter), problem, letter)
+        else:
+            context = context_of(instruction, name, setup)
+            problem = field.wrong(value, context)
+            if problem is None and isinstance(field, ListOf):
+                problem = _rows_problem(field, value, setup)
+            _judge(found, name, field, value, context, problem)
+    if any(finding.severity == "error" for finding in found):
+        return tuple(sorted(found, key=lambda finding: finding.severity))
+    if own := instruction.own_problem():
+        found.insert(0, Finding(*own))
+    elif reason := cannot(type(instruction), setup):
+        found.insert(0, Finding("", reason))
+    return tuple(found)
+
+
+def _judge(
+    found: list[Finding], name: str, field: Field, value: Any, context: Context, problem: str | None, axis: str = ""
+) -> None:
+    """Notes what is wrong with one value, or that rounding changes it."""
+    if problem:
+        found.append(Finding(name, problem, "error", axis))
+    elif field.warns:
+        counts = field.counts(value, context)
+        if counts is not None and counts.warning:
+            found.append(Finding(name, counts.warning, "warning", axis))
 
 
 def has_errors(instruction: Instruction, setup: Setup) -> bool:

@@ -9,11 +9,12 @@ from collections.abc import Mapping
 from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from math import ceil, floor
+from typing import Any, NamedTuple
 
 from codegen.fields import AXES, Choice, Dimension, Flag, Number, Text, value
 from codegen.models import MODELS, Model
-from codegen.numbers import nearest, nearest_multiple, parse_number, plain, toward_zero
+from codegen.numbers import parse_number, plain
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.nodes import Broken
 from codegen.twoletter.parse import parse
@@ -247,31 +248,11 @@ class Setup:
 
     def counts(self, dimension: Dimension, letter: str, number: Fraction) -> int:
         """A value as it is sent: rounded to the controller's resolution, never above a maximum."""
-        exact = number * self.factor(dimension, letter)
-        if dimension is Dimension.SPEED:
-            return int(toward_zero(exact, Fraction(SPEED_STEP)))
-        if dimension is Dimension.ACCELERATION:
-            return self._acceleration_counts(exact, letter)
-        if dimension is Dimension.ERROR:
-            return int(exact)
-        if dimension is Dimension.POSITION:
-            return self._position_counts(exact, letter)
-        return nearest(exact)
+        return _sent(self, dimension, letter, number).counts
 
-    def _acceleration_counts(self, exact: Fraction, letter: str) -> int:
-        sent = int(nearest_multiple(exact, Fraction(ACCELERATION_STEP)))
-        highest = self.bounds(Dimension.ACCELERATION, letter)[1] * self.factor(Dimension.ACCELERATION, letter)
-        if sent > highest:
-            sent = int(toward_zero(highest, Fraction(ACCELERATION_STEP)))
-        return max(sent, ACCELERATION_STEP)
-
-    def _position_counts(self, exact: Fraction, letter: str) -> int:
-        sent = nearest(exact)
-        scale = self.factor(Dimension.POSITION, letter)
-        low, high = self.bounds(Dimension.POSITION, letter)
-        if sent > high * scale:
-            return sent - 1
-        return sent + 1 if sent < low * scale else sent
+    def sent(self, dimension: Dimension, letter: str, number: Fraction) -> Sent:
+        """As `counts`, and whether rounding changed the value by more than 0.1 %."""
+        return _sent(self, dimension, letter, number)
 
     def from_counts(self, dimension: Dimension, letter: str, counts: int | Fraction) -> Fraction:
         """What a sent value means in the user's unit."""
@@ -316,6 +297,44 @@ def _factor(setup: Setup, dimension: Dimension, letter: str) -> Fraction:
             return 1 / slow
         case _:
             return Fraction(1)
+
+
+class Sent(NamedTuple):
+    """What is sent for a value, and whether rounding changed it by more than 0.1 %."""
+
+    counts: int
+    moved: bool
+
+
+@lru_cache(maxsize=65536)
+def _sent(setup: Setup, dimension: Dimension, letter: str, number: Fraction) -> Sent:
+    """Whole-number arithmetic on `above`/`below`, the exact counts: this runs for every value of a program."""
+    factor = _factor(setup, dimension, letter)
+    above = number.numerator * factor.numerator
+    below = number.denominator * factor.denominator
+    match dimension:
+        case Dimension.SPEED:
+            size = abs(above) // (below * SPEED_STEP) * SPEED_STEP
+            counts = -size if above < 0 else size
+        case Dimension.ACCELERATION:
+            counts = max(_nearest(above, below * ACCELERATION_STEP) * ACCELERATION_STEP, ACCELERATION_STEP)
+            if counts * below > above:
+                highest = _bounds(setup, dimension, letter)[1] * factor
+                counts = min(counts, int(highest / ACCELERATION_STEP) * ACCELERATION_STEP)
+        case Dimension.ERROR:
+            counts = above // below
+        case _:
+            counts = _nearest(above, below)
+            if dimension is Dimension.POSITION and counts * below != above:
+                low, high = _bounds(setup, dimension, letter)
+                counts = min(max(counts, ceil(low * factor)), floor(high * factor))
+    return Sent(counts, abs(counts * below - above) * 1000 > abs(above))
+
+
+def _nearest(above: int, below: int) -> int:
+    """The whole number nearest to a quotient; a half goes away from zero."""
+    size = (2 * abs(above) + below) // (2 * below)
+    return -size if above < 0 else size
 
 
 def _given(text: str, otherwise: Fraction) -> Fraction:

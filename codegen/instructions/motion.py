@@ -188,7 +188,10 @@ class MotionParameters(Instruction):
 
     title = "Motion Parameters"
     group = Group.MOTION
-    sentence = "[<Set {axis}:[ speed {speed}][ acceleration {acceleration}][ deceleration {deceleration}]>|Set motion parameters …]"
+    sentence = (
+        "[<Set {axis} to[ {speed}][, acceleration {acceleration}][, deceleration {deceleration}]>"
+        "|Set motion parameters …]"
+    )
     help = "Sets speed, acceleration and deceleration for the moves that follow; empty values keep what the axis has."
 
     speed: PerAxisText = value(PerAxis(label="Speed", of=SPEED, required=False, help="Top speed of moves."), NONE)
