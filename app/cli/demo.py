@@ -21,12 +21,14 @@ from codegen.generate import generate
 from codegen.models import model
 from codegen.program import Step
 from codegen.read import sentence
+from device.simulator.plant import Plant
 from device.simulator.times import TICKS
 from resources import path as resource
 
 EXAMPLE = "examples/wire-cutter.tlp"
 SECONDS = 7.5
 REST_SAMPLES = 20
+ROLLER = Plant(viscous_friction=0.006, coulomb_friction=0.002)  # N·m·s/rad and N·m: wire drags
 STIMULUS = "ms,signal,value\n0,in1,0\n500,in1,1\n550,in1,0\n3500,in1,1\n3550,in1,0\n"
 
 
@@ -103,7 +105,7 @@ def section(title: str, lines: list[str]) -> None:
 
 def performed(loaded: Loaded, stimulus: str) -> tuple[Columns, dict[str, Any], float]:
     """Runs the program with its stimulus: the record, the final state, virtual seconds."""
-    simulation = loaded_simulation(loaded, None, None)
+    simulation = loaded_simulation(loaded, {"X": ROLLER}, None)
     trace = Trace(simulation, loaded.model.threads, loaded.model.axes)
     trace.start()
     start = simulation.ticks

@@ -44,7 +44,7 @@ class Trace:
 
     def take(self) -> None:
         """Takes the rows recorded so far."""
-        motion, clock = self.simulation.motion, self.simulation.unit.clock
+        motion, clock = self.simulation.unit.motion, self.simulation.unit.clock
         rows = motion.trace_rows().copy()
         motion.trace_clear()
         self.blocks.append(rows)
