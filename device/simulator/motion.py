@@ -8,6 +8,7 @@ from enum import IntFlag
 
 import numpy
 
+from device.simulator.following import Cam, Contour
 from device.simulator.kernel import events, inputs, layout, profile
 from device.simulator.kernel.compiled import Vector, as_state, loop_for
 from device.simulator.kernel.layout import State, axis_base
@@ -16,6 +17,7 @@ from device.simulator.outside import Outside
 from device.simulator.plant import Plant
 from device.simulator.readings import Readings, wrapped
 from device.simulator.registers import Register, write_defaults, write_register
+from device.simulator.sequence import Path
 from device.simulator.watches import Watch, arm, conditions, release
 
 __all__ = ["Event", "Motion", "Register", "Watch"]
@@ -48,6 +50,9 @@ class Motion(Readings, Outside):
         self._plants = [plants[i] if i < len(plants) else Plant() for i in range(axes)]
         self._marks: dict[int, tuple[Watch, int, float]] = {}
         self._power_up(seed)
+        self.path = Path(self._state, self._parts)
+        self.cam = Cam(self._state, self._parts)
+        self.contour = Contour(self._state, self._parts)
 
     def _power_up(self, seed: int) -> None:
         state = self._state
@@ -155,9 +160,10 @@ class Motion(Readings, Outside):
         return True
 
     def stop(self, axis: int, code: int = 4) -> None:
-        """Decelerates at DC and ends gearing of the axis."""
+        """Decelerates at DC (a path with VD) and ends gearing, cam and contour of the axis."""
         state, b = self._state, axis_base(axis)
-        state[b + layout.GEAR_RATIO] = 0.0
+        for slot in (layout.GEAR_RATIO, layout.CAM_ENGAGED, layout.CAM_WAITS, layout.IN_CONTOUR, layout.CONTOUR_STEP):
+            state[b + slot] = 0.0
         if not state[b + layout.MOVING]:
             return
         state[b + layout.STAGE] = layout.STAGE_NONE
@@ -165,6 +171,8 @@ class Motion(Readings, Outside):
         state[b + layout.STOP_CODE] = float(code)
         if mode == layout.MODE_IDLE:
             state[b + layout.MOVING] = 0.0
+        elif mode == layout.MODE_PATH:
+            self.path.stop(code)
         elif mode != layout.MODE_SETTLING:
             state[b + layout.MODE] = layout.MODE_STOPPING
 

@@ -129,6 +129,10 @@ class Readings:
         """Volts at analog input 1..8."""
         return self._state[layout.ANALOG_1 + number - 1]
 
+    def quiet(self) -> bool:
+        """No watch tripped in the last run and no event waits to be taken."""
+        return self._state[layout.TRIPS] == 0.0 and self._state[layout.EVENTS] == 0.0
+
     def latch_armed(self, axis: int) -> bool:
         """Armed and nothing captured yet."""
         return self._flag(axis, layout.LATCH_ARMED)

@@ -18,7 +18,7 @@ from device.simulator.kernel.layout import State
 
 Vector = NDArray[numpy.float64]
 Loop = Callable[[Vector, Vector, int], int]
-MODULES = ("layout", "profile", "inputs", "homing", "servo", "plant", "events", "loop")
+MODULES = ("layout", "profile", "inputs", "homing", "servo", "plant", "contour", "cam", "path", "events", "loop")
 PACKAGE = "device.simulator.kernel"
 
 

@@ -16,6 +16,7 @@ from device.simulator.kernel.layout import (
     AUXILIARY_SHIFT,
     AUXILIARY_SIGN,
     AUXILIARY_SOURCE,
+    CAM_ENGAGED,
     COUNTS,
     COUNTS_BEFORE,
     COUNTS_SHIFT,
@@ -36,6 +37,7 @@ from device.simulator.kernel.layout import (
     HOME_FROM,
     HOME_LEVEL,
     HOME_TO,
+    IN_CONTOUR,
     JOG_V,
     LIMIT_ACTIVE_LEVEL,
     LIMIT_NOW,
@@ -45,6 +47,7 @@ from device.simulator.kernel.layout import (
     MODE_CONTOUR,
     MODE_IDLE,
     MODE_JOG,
+    MODE_PATH,
     MODE_POSITION,
     MODE_STOPPING,
     MOTOR_ON,
@@ -53,6 +56,7 @@ from device.simulator.kernel.layout import (
     NOISE,
     OFF_ON_ERROR,
     OUTSIDE_X,
+    PATH_STOP_CODE,
     RANDOM,
     RAW,
     RAW_LAST,
@@ -162,24 +166,30 @@ def check_limits(S: State, A: State) -> None:
         raise_event(S, A, EVENT_FORWARD_LIMIT if now == 1.0 else EVENT_REVERSE_LIMIT)
         A[STOP_CODE] = now + 1.0
         A[GEAR_RATIO] = 0.0
+        A[CAM_ENGAGED] = 0.0
         A[STAGE] = STAGE_NONE
         mode = A[MODE]
         if mode in (MODE_POSITION, MODE_JOG, MODE_CONTOUR):
             A[MODE] = MODE_STOPPING
+            A[IN_CONTOUR] = 0.0
+        elif mode == MODE_PATH and S[PATH_STOP_CODE] == 0.0:
+            S[PATH_STOP_CODE] = now + 1.0
     A[LIMIT_NOW] = now
 
 
 def check_gear_limits(S: State, A: State, before: float) -> None:
     """Gearing ends when it drives the axis into an active limit."""
-    if A[GEAR_RATIO] == 0.0 or A[LIMIT_NOW] != 0.0:
+    if (A[GEAR_RATIO] == 0.0 and A[CAM_ENGAGED] == 0.0) or A[LIMIT_NOW] != 0.0:
         return
     change = A[REFERENCE] - before
     if change > 0.0 and forward_blocked(A):
         A[GEAR_RATIO] = 0.0
+        A[CAM_ENGAGED] = 0.0
         A[STOP_CODE] = 2.0
         raise_event(S, A, EVENT_FORWARD_LIMIT)
     elif change < 0.0 and reverse_blocked(A):
         A[GEAR_RATIO] = 0.0
+        A[CAM_ENGAGED] = 0.0
         A[STOP_CODE] = 3.0
         raise_event(S, A, EVENT_REVERSE_LIMIT)
 

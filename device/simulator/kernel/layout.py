@@ -41,39 +41,36 @@ ANALOG_1 = 24  # eight voltages
     CONTOUR_ACTIVE,
     CAM_ON,
     CAM_MASTER,  # absolute slot of the master's position
+    CAM_AXIS,  # axis the master belongs to
+    CAM_AUXILIARY,  # 1: the master is that axis' auxiliary encoder
     CAM_CYCLE,
     CAM_INTERVAL,
     CAM_START,
-    CAM_POSITION,  # master position within its cycle
-    CAM_LAST,
-    CAM_AXIS,  # axis whose own position is kept within the cycle, -1: an auxiliary encoder
+    CAM_LAST,  # master position of the last sample
 ) = range(32, 44)
 (
     PATH_ACTIVE,  # 1: the sequence runs
-    PATH_HEAD,  # index of the segment being run, counted since LM/VM
+    PATH_MOVING,  # 1 until its end is put out
+    PATH_HEAD,  # number of the segment the profile is on, counted since LM/VM
+    PATH_OUT_HEAD,  # number of the segment the smoothed point is on
     PATH_TAIL,  # segments given since LM/VM
     PATH_ENDED,  # 1: LE/VE given
     PATH_SPEED_V,  # VS
-    PATH_AC_A,
-    PATH_DC_A,
+    PATH_AC_STEP,  # VA/1024
+    PATH_DC_STEP,
     PATH_RATIO,  # VR
     PATH_SMOOTHING,  # VT
     PATH_V,
     PATH_TRAVELLED,  # counts since BGS
     PATH_SMOOTHED,  # the same behind the VT filter
     PATH_MARK,  # where the last AV tripped
-    PATH_REMAINING,  # counts from here to the end of the last segment given
-    PATH_STOPPING,
-    PATH_STOP_CODE,
+    PATH_STOP_CODE,  # not 0: stopping with VD for this reason
     PATH_AT_SPEED,
-    PATH_FROM,  # travelled at the start of the segment PATH_HEAD (unsmoothed)
-    PATH_OUT_HEAD,  # segment the smoothed point is on
-    PATH_OUT_FROM,
-    PATH_FILTER_START,
-    PATH_MOVING,
     PATH_TOTAL,  # counts of all segments given
-    PATH_SEGMENT_SPEED_V,  # speed asked by the running segment's `< n`, -1: none
-) = range(48, 72)
+    PATH_FIRST,  # plane of VM
+    PATH_SECOND,
+    PATH_TANGENT,  # axis that follows the direction of travel, -1: none
+) = range(48, 69)
 
 # --- watches: armed (0 free, 1 armed, 2 tripped), then two conditions (slot, operator, value), either trips ---
 WATCH = 80
@@ -223,15 +220,16 @@ AXIS = WATCH + WATCH_STRIDE * MAXIMUM_WATCHES
     CONTOUR_STEP,
     CONTOUR_NEXT,
     IN_CONTOUR,
-    CAM_ENGAGED,  # 0 off, 1 waits to engage, 2 follows, 3 follows and waits to disengage
+    CAM_ENGAGED,  # 0 off, 1 follows
+    CAM_WAITS,  # 1: changes over to CAM_NEXT when the master passes CAM_AT forwards
+    CAM_NEXT,
     CAM_AT,
-    CAM_NET,
-    CAM_VALUE,
-    PATH_MEMBER,
-    PATH_LAST,  # coordinate put out at the last sample
+    CAM_NET,  # change of the slave in a cycle, with its sign
+    PATH_MEMBER,  # 1: an axis of the path, 2: the tangent axis
+    PATH_ORIGIN,  # POSITION at BGS
     PATH_END,  # coordinate at the end of the last segment given
     PATH_POINT,  # coordinate at the end of the last finished segment
-) = range(139)
+) = range(140)
 DELAY_RING = 140
 MAXIMUM_DELAY = 32
 HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV
@@ -255,7 +253,18 @@ CAM = SINE + SINE_LENGTH + 1  # 257 entries of four axes
 CAM_LENGTH = 257
 SEGMENTS = CAM + CAM_LENGTH * MAXIMUM_AXES
 SEGMENT_STRIDE = 16
-MAXIMUM_SEGMENTS = 512  # 511 wait while one runs
+MAXIMUM_SEGMENTS = 1024  # a ring; 511 may wait, the smoothed point may lag behind the profile
+WAITING_SEGMENTS = 511
+(
+    G_ARC,  # 0 line, 1 arc
+    G_LENGTH,
+    G_END,  # way from the start of the sequence to the end of this segment
+    G_SPEED_V,  # `< n`, -1: none
+    G_TANGENT,  # of the tangent axis at the start of the segment, and its change a count
+    G_TANGENT_SLOPE,
+    G_START,  # four coordinates: start of a line, centre of an arc
+) = range(7)
+G_DIRECTION = 10  # line: change of four coordinates a count; arc: radius of either axis, first angle, degrees a count
 SIZE = SEGMENTS + SEGMENT_STRIDE * MAXIMUM_SEGMENTS
 
 # --- values -----------------------------------------------------------------------------------------------------------

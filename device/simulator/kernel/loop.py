@@ -6,6 +6,8 @@ after the other, so that an axis that follows another one sees this sample's mas
 
 from __future__ import annotations
 
+from device.simulator.kernel.cam import advance_cam
+from device.simulator.kernel.contour import advance_contour
 from device.simulator.kernel.events import measure, test_watches
 from device.simulator.kernel.homing import advance_stage
 from device.simulator.kernel.inputs import (
@@ -18,7 +20,9 @@ from device.simulator.kernel.inputs import (
 from device.simulator.kernel.layout import (
     ACTUAL,
     AXES,
+    CAM_ON,
     COMMAND,
+    CONTOUR_ACTIVE,
     ENCODER_SIGN,
     EVENTS,
     GEAR_MASTER,
@@ -27,6 +31,9 @@ from device.simulator.kernel.layout import (
     MAIN_ON_LOAD,
     MOTOR_V,
     OUTPUTS,
+    PATH_MOVING,
+    POSITION,
+    POSITION_SHIFT,
     REFERENCE,
     SAMPLE,
     STAGE,
@@ -34,11 +41,13 @@ from device.simulator.kernel.layout import (
     TRACE_COUNTDOWN,
     TRACE_EVERY,
     TRACE_ROWS,
+    TRAVEL,
     TRIPS,
     State,
     part,
     slots,
 )
+from device.simulator.kernel.path import advance_path
 from device.simulator.kernel.plant import advance_plant
 from device.simulator.kernel.profile import advance_profile, follow_gear, smooth
 from device.simulator.kernel.servo import servo
@@ -63,12 +72,21 @@ def write_trace(S: State, trace: State, axes: int) -> None:
 
 def profiles(S: State, axes: int) -> None:
     """The profile stage of all axes."""
+    if S[CONTOUR_ACTIVE] != 0.0:
+        advance_contour(S, axes)
     for axis in range(axes):
         A = part(S, axis)
         check_limits(S, A)
         if A[STAGE] != 0.0:
             advance_stage(S, A)
         advance_profile(A)
+    if S[PATH_MOVING] != 0.0:
+        advance_path(S, axes)
+    if S[CAM_ON] != 0.0:
+        advance_cam(S, axes)
+    for axis in range(axes):
+        A = part(S, axis)
+        A[TRAVEL] = A[POSITION] - A[POSITION_SHIFT]
     for axis in range(axes):
         A = part(S, axis)
         before = A[REFERENCE]

@@ -8,6 +8,8 @@ from device.simulator.kernel.layout import (
     AC_STEP,
     ACTUAL,
     AT_SPEED,
+    CAM_ENGAGED,
+    CAM_WAITS,
     COMMANDED_LAST_V,
     COMMANDED_V,
     CONTOUR_STEP,
@@ -19,16 +21,19 @@ from device.simulator.kernel.layout import (
     GEAR_MASTER,
     GEAR_RATIO,
     HALF_WRAP,
+    IN_CONTOUR,
     JOG_V,
     MARK,
     MODE,
     MODE_CONTOUR,
     MODE_IDLE,
     MODE_JOG,
+    MODE_PATH,
     MODE_POSITION,
     MODE_SETTLING,
     MODE_STOPPING,
     MOVING,
+    PATH_ORIGIN,
     POSITION,
     POSITION_SHIFT,
     REFERENCE,
@@ -46,7 +51,6 @@ from device.simulator.kernel.layout import (
     STEPS_SMOOTH,
     STOP_CODE,
     TARGET,
-    TRAVEL,
     VELOCITY_V,
     WRAP,
     State,
@@ -63,6 +67,7 @@ def shift(A: State, counts: float) -> None:
     A[SMOOTHED] += counts
     A[SMOOTHED_LAST] += counts
     A[TARGET] += counts
+    A[PATH_ORIGIN] += counts
     A[START] += counts
     A[MARK] += counts
     A[REFERENCE] += counts
@@ -79,6 +84,7 @@ def step_by(A: State, counts: float) -> None:
     A[POSITION] += counts
     A[SMOOTHED] += counts
     A[TARGET] += counts
+    A[PATH_ORIGIN] += counts
 
 
 def finish(A: State) -> None:
@@ -207,12 +213,12 @@ def advance_profile(A: State) -> None:
     elif mode == MODE_CONTOUR:
         A[POSITION] += A[CONTOUR_STEP]
         A[VELOCITY_V] = A[CONTOUR_STEP] * SAMPLES
-    A[TRAVEL] = A[POSITION] - A[POSITION_SHIFT]
 
 
 def smooth(A: State) -> None:
     """The IT filter, RP, and the renaming of positions that leave 32 bits."""
-    smoothing = A[SMOOTHING]
+    mode = A[MODE]
+    smoothing = 1.0 if mode in (MODE_CONTOUR, MODE_PATH) else A[SMOOTHING]
     if smoothing >= 1.0:
         A[SMOOTHED] = A[POSITION]
         if A[MODE] == MODE_SETTLING:
@@ -240,5 +246,8 @@ def freeze(A: State) -> None:
     A[STAGE] = 0.0
     A[GEAR_RATIO] = 0.0
     A[CONTOUR_STEP] = 0.0
+    A[IN_CONTOUR] = 0.0
+    A[CAM_ENGAGED] = 0.0
+    A[CAM_WAITS] = 0.0
     A[SMOOTHED] = A[POSITION]
     finish(A)
