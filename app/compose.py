@@ -65,7 +65,7 @@ class Studio(QObject):
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.search = Search(connect, clock, self)
-        self.start = Start(self.connection, self.search, settings, ports, self.window)
+        self.start = Start(self.connection, self.search, settings, ports, self.model, self.window)
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
@@ -76,6 +76,10 @@ class Studio(QObject):
         self._join()
         self._attach(self.connection.controller)
         self._document_changed(None, self.session.document)
+
+    def model(self) -> str:
+        """The controller model the open program is for."""
+        return self.session.document.setup.model
 
     def close(self) -> None:
         """At the end: no more ticks, the connection closed, the hooks given back."""
@@ -116,7 +120,6 @@ class Studio(QObject):
         self.actions.fill_toolbar(header.toolbar, MAIN)
         self.actions.fill_toolbar(window.run_bar.toolbar, RUN)
         self.desk.tick_theme(self.actions)
-        self.desk.restore()
 
     def _join(self) -> None:
         for panel in self.panels:
@@ -139,6 +142,8 @@ class Studio(QObject):
 
     def _join_window(self) -> None:
         window = self.window
+        window.resize(1400, 860)
+        window.first_shown.connect(self.desk.restore)
         window.stop.connect(self.connection.stop)
         window.closing.connect(lambda event: self.desk.closing(event, self.files))
         window.status.progress.cancelled.connect(self.run.cancel)
@@ -167,7 +172,6 @@ class Studio(QObject):
         self.follow.look()
 
     def _document_changed(self, old: Document | None, new: Document) -> None:
-        self.program.show_document(old, new)
         for panel in self.panels:
             panel.show_document(old, new)
         self.connection.controller.show_listing(self.session.listing.text)

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QObject, Signal
 
 from device.api import Controller, Kind
-from device.transport import LineSettings, open_transport
+from device.transport import LineSettings, OpenFailed, Transport, open_transport
+
+if TYPE_CHECKING:
+    from device.simulator.process import SimulatorProcess
 
 SIMULATOR = "simulator:"
 
@@ -77,23 +80,46 @@ class Connection(QObject):
         self.controller.close()
 
 
+class Simulated:
+    """A simulator process of our own, started on the link's thread because that takes a moment."""
+
+    def __init__(self, model: str, line: LineSettings) -> None:
+        self._model, self._line = model, line
+        self._process: SimulatorProcess | None = None
+        self._closed = False
+
+    def open(self) -> Transport:
+        """Starts the process and connects to it."""
+        from device.simulator.process import SimulatorProcess
+
+        if self._process is None:
+            self._process = SimulatorProcess(self._model)
+        if self._closed:
+            self._process.close()
+            raise OpenFailed("The simulator was closed.")
+        return open_transport(self._process.address, self._line)
+
+    def stimulus(self, signal: str, value: float | str) -> None:
+        """Something outside the simulated controller changes; ValueError while it is still starting."""
+        if self._process is None:
+            raise ValueError("it is still starting")
+        self._process.stimulus(signal, value)
+
+    def close(self) -> None:
+        """Ends the process."""
+        self._closed = True
+        if self._process is not None:
+            self._process.close()
+
+
 def connector(programs: Path, idle_s: Callable[[], float]) -> Connector:
     """Opens real lines and starts simulators; programs found in a controller are kept in `programs`."""
 
     def connect(address: str, line: LineSettings) -> Opened:
         if not address.startswith(SIMULATOR):
-            controller = Controller.connect(address, line, program_folder=programs, idle_limit_s=idle_s())
-            return Opened(controller)
-        from device.simulator.process import SimulatorProcess
-
-        process = SimulatorProcess(address.removeprefix(SIMULATOR))
-        controller = Controller(
-            lambda: open_transport(process.address, line),
-            kind=Kind.SIMULATOR,
-            line=line,
-            program_folder=programs,
-            own=process,
-        )
-        return Opened(controller, process)
+            return Opened(Controller.connect(address, line, program_folder=programs, idle_limit_s=idle_s()))
+        world = Simulated(address.removeprefix(SIMULATOR), line)
+        kind = Kind.SIMULATOR
+        return Opened(Controller(world.open, kind=kind, line=line, program_folder=programs, own=world), world)
 
     return connect

@@ -17,6 +17,7 @@ from app.session import Session
 from app.settings import Settings
 from app.theme import Choice, Theme
 from app.window import Window
+from codegen.rescale import Keep, with_setup
 from codegen.setup import Setup
 from widgets.display.messages import MessagesPanel
 from widgets.help.panel import HelpPanel
@@ -76,7 +77,6 @@ class Desk(QObject):
     def restore(self) -> None:
         """The arrangement of last time, or the layout chosen last."""
         if not self._window.restore(self._settings.get("window")):
-            self._window.resize(1400, 860)
             self._window.arrange(LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"]))
 
     def choose_theme(self, name: str, actions: Actions) -> None:
@@ -168,12 +168,5 @@ class Desk(QObject):
         self._session.close()
         QApplication.quit()
 
-    def _take_setup(self, setup: Setup, keep: str) -> None:
-        self._session.set_document(with_setup(self._session, setup, keep), "Change setup")
-
-
-def with_setup(session: Session, setup: Setup, keep: str) -> object:
-    """The document with another setup; numbers stay as they are in units, or are rescaled so that counts stay."""
-    from codegen.rescale import with_setup as rescaled
-
-    return rescaled(session.document, setup, keep)
+    def _take_setup(self, setup: Setup, keep: Keep) -> None:
+        self._session.set_document(with_setup(self._session.document, setup, keep), "Change setup")

@@ -1,4 +1,4 @@
-"""Panels as docks: any may float, tab or close; what moves something wears its kind and has its own STOP when floating."""
+"""Panels as docks: any may float, tab or close; what moves something wears its kind and floats with its own STOP."""
 
 from __future__ import annotations
 
@@ -42,8 +42,7 @@ class Dock(QDockWidget):
         self.stop_button.stop.connect(self.stop)
         self.stop_button.hide()
         column = QVBoxLayout(self.frame)
-        margin = self.frame.contentsMargins().left()
-        column.setContentsMargins(margin, margin, margin, margin)
+        column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.stop_button, 0, Qt.AlignmentFlag.AlignRight)
         column.addWidget(content, 1)

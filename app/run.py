@@ -56,6 +56,20 @@ class Run(QObject):
             "Downloading", self._connection.controller.download(listing.text), lambda done: self._downloaded(done, then)
         )
 
+    def _mismatch(self) -> str:
+        """Why this program may not be for this controller; empty when it is."""
+        found, wanted = self._connection.controller.model, self._session.document.setup.limits
+        if found is None or found == wanted:
+            return ""
+        return (
+            f"The program is written for {wanted.name.upper()} ({len(wanted.axes)} axes), but {found.name.upper()} "
+            f"({len(found.axes)} axes) is connected. Change the model in the setup, or download all the same."
+        )
+
+    def _download(self, then: Callable[[], None] | None) -> None:
+        job = self._connection.controller.download(self._session.listing.text)
+        self._begin("Downloading", job, lambda done: self._downloaded(done, then))
+
     def execute(self) -> None:
         """Runs the program when it is the one that was verified; otherwise asks which one is meant."""
         badge = self._connection.controller.program_badge
@@ -63,7 +77,7 @@ class Run(QObject):
             self.run_in_controller()
             return
         words = {
-            Badge.CHANGED: "The program was changed since it was downloaded. The controller still holds the earlier one.",
+            Badge.CHANGED: "The program was changed since it was downloaded. The controller holds the earlier one.",
             Badge.UNKNOWN: "What is in the controller is not known to be this program.",
         }[badge]
         answers: Answers = [

@@ -7,12 +7,20 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolBar, QWidget
 
 from app.header import tool_bar
 from device.api import Badge
-from widgets.panel import set_text
+from widgets.panel import set_text, show_role
 
 BADGES = {
-    Badge.SAME: ("ok", "✓ In the controller: this program"),
-    Badge.CHANGED: ("warning", "≠ In the controller: an earlier version"),
-    Badge.UNKNOWN: ("quiet", "? In the controller: not known"),
+    Badge.SAME: ("ok", "✓ In the controller", "The controller holds exactly this program: it was sent and read back."),
+    Badge.CHANGED: (
+        "warning",
+        "≠ Changed since",
+        "The controller holds an earlier version of this program: download it again.",
+    ),
+    Badge.UNKNOWN: (
+        "quiet",
+        "? Not known",
+        "What is in the controller is not known: download, or upload to look at it.",
+    ),
 }
 
 
@@ -22,6 +30,7 @@ class RunBar(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.toolbar: QToolBar = tool_bar()
+        self.toolbar.setObjectName("run")
         self.toolbar.setIconSize(QSize(20, 20))
         self.toolbar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.badge = QLabel()
@@ -31,14 +40,12 @@ class RunBar(QWidget):
         row.addWidget(self.toolbar)
         row.addStretch(1)
         row.addWidget(self.badge)
-        self._role = ""
+        self.badge.setMinimumWidth(0)
 
     def show_badge(self, badge: Badge | None) -> None:
         """None: nothing is connected, nothing to compare with."""
-        role, words = BADGES[badge] if badge is not None else ("quiet", "")
+        role, words, help_text = BADGES[badge] if badge is not None else ("quiet", "", "")
         set_text(self.badge, words)
-        if role != self._role:
-            self._role = role
-            self.badge.setProperty("role", role)
-            self.badge.style().unpolish(self.badge)
-            self.badge.style().polish(self.badge)
+        self.badge.setToolTip(help_text)
+        self.badge.setAccessibleName(f"Program in the controller: {words}")
+        show_role(self.badge, role)

@@ -1,4 +1,4 @@
-"""Looking for a controller at start: ports known from before first, one after the other; a new port only when allowed."""
+"""Looking for a controller at start: ports known from before first, one by one; a new port only when allowed."""
 
 from __future__ import annotations
 

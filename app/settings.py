@@ -51,21 +51,23 @@ ROWS = (
     Row("stop_bits", int, 1, "Stop bits", "Stop bits after a character.", (1, 2)),
     Row("parity", str, "none", "Parity", "Check bit of a character.", ("none", "even", "odd")),
     Row("echo", bool, False, "Controller echo", "The controller sends back what it receives."),
-    Row("handshake", str, "both", "Flow control", "How the controller holds the computer back.", ("none", "rts", "xon", "both")),
-    Row("ports_used", list, [], "Known ports", "Ports that were connected before; only these are written to without asking."),
-    Row("simulator_model", str, "ssc4", "Simulated model", "The controller model the simulator plays."),
-    Row("idle_minutes", float, 10.0, "Back to Watch after", "Minutes without an action after which Control falls back to Watch.",
+    Row("handshake", str, "both", "Flow control", "How the controller holds the computer back.", ("none", "rts",
+        "xon", "both")),
+    Row("ports_used", list, [], "Known ports",
+        "Ports that were connected before; only these are written to without asking."),
+    Row("idle_minutes", float, 10.0, "Back to Watch after",
+        "Minutes without an action after which Control falls back to Watch.",
         low=0.5, high=480.0),
     Row("recent_files", list, [], "Recent programs", "Programs opened last, newest first."),
     Row("layout", str, "Program", "Layout", "Arrangement of the panels.", ("Program", "Run", "Own")),
     Row("window", dict, {}, "Window", "Place, size and arrangement of the panels."),
-    Row("offline_setup", dict, {}, "Default setup", "The setup that new programs start with."),
-    Row("look_at_start", bool, True, "Look for a controller at start", "Tries the ports known from before when the program starts."),
+    Row("look_at_start", bool, True, "Look for a controller at start",
+        "Tries the ports known from before when the program starts."),
 )  # fmt: skip
 
 
 class Settings:
-    """The values of all rows; whatever the file holds that does not fit is left at its default and kept in `complaints`."""
+    """The values of all rows; what the file holds that does not fit stays at its default and is a complaint."""
 
     def __init__(self, path: Path, rows: tuple[Row, ...] = ROWS) -> None:
         self.path = path

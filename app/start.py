@@ -24,16 +24,17 @@ class Start(QObject):
     exit_wanted = Signal()
 
     def __init__(
-        self, connection: Connection, search: Search, settings: Settings, ports: Ports, parent: QWidget
+        self,
+        connection: Connection,
+        search: Search,
+        settings: Settings,
+        ports: Ports,
+        model: Callable[[], str],
+        parent: QWidget,
     ) -> None:
         super().__init__(parent)
-        self._connection, self._search, self._settings, self._ports, self._window = (
-            connection,
-            search,
-            settings,
-            ports,
-            parent,
-        )
+        self._connection, self._search, self._settings = connection, search, settings
+        self._ports, self._model, self._window = ports, model, parent
         self.welcome: Welcome | None = None
         self.serial: SerialSetup | None = None
         search.looking.connect(self._looking)
@@ -60,9 +61,9 @@ class Start(QObject):
         self.serial.show()
 
     def use_simulator(self) -> None:
-        """The simulated controller of the model chosen last."""
+        """A simulated controller of the model that the program is for."""
         self._search.cancel()
-        self._connection.open_simulator(self._settings.get("simulator_model"))
+        self._connection.open_simulator(self._model())
         self._done()
 
     def open_port(self, device: str) -> None:
@@ -74,8 +75,12 @@ class Start(QObject):
         """The serial line as it was set up last."""
         choice = self.choice()
         return LineSettings(
-            baud=choice.baud, bits=choice.bits, parity=choice.parity, stop_bits=choice.stop_bits, handshake=choice.handshake
-        )  # fmt: skip
+            baud=choice.baud,
+            bits=choice.bits,
+            parity=choice.parity,
+            stop_bits=choice.stop_bits,
+            handshake=choice.handshake,
+        )
 
     def choice(self) -> SerialChoice:
         """The same as the serial set-up shows it; the first port where none was ever used."""

@@ -21,7 +21,7 @@ class StopKey(QObject):
         self.stay_first()
 
     def stay_first(self) -> None:
-        """Goes before filters installed since: a running drag installs one that swallows every key. Called with each tick."""
+        """Goes before filters installed since (a drag installs one that swallows every key); called with each tick."""
         self._application.installEventFilter(self)
 
     def remove(self) -> None:

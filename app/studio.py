@@ -36,13 +36,14 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
 
 def begin(studio: Studio, file: Path | None, connect: str) -> None:
     """What the command line asked for, once the window is there."""
+    studio.program.tree.setFocus()
     if file is not None:
         studio.files.open_path(file)
     else:
         studio.desk.offer_recovery()
     way, _, what = connect.partition(":")
     if way == "simulator":
-        studio.connection.open_simulator(what or studio.settings.get("simulator_model"))
+        studio.connection.open_simulator(what or studio.model())
     elif way == "port":
         studio.start.open_port(what)
     elif way == "ask":

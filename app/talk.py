@@ -1,4 +1,4 @@
-"""What panels ask of the controller, and what becomes of it: typed commands, outputs, switches of the simulator, answers."""
+"""What panels ask of the controller: typed commands, outputs, switches of the simulator, answers to questions."""
 
 from __future__ import annotations
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QByteArray, Qt, Signal
-from PySide6.QtGui import QCloseEvent
+from itertools import pairwise
+
+from PySide6.QtCore import QByteArray, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QShowEvent
 from PySide6.QtWidgets import QMainWindow, QMenu, QVBoxLayout, QWidget
 
 from app.docks import Dock
@@ -26,11 +28,14 @@ class Window(QMainWindow):
     """Everything it shows is handed to it."""
 
     stop = Signal()
+    first_shown = Signal()
     closing = Signal(object)  # the QCloseEvent; the owner may ignore it
 
     def __init__(self, centre: QWidget) -> None:
         super().__init__()
         self.setDockNestingEnabled(True)
+        for corner, area in ((Qt.Corner.BottomLeftCorner, LEFT), (Qt.Corner.BottomRightCorner, RIGHT)):
+            self.setCorner(corner, area)
         self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, self.tabPosition(BOTTOM).North)
         self.header, self.status, self.run_bar, self.prompt = Header(), Status(), RunBar(), PromptBox()
         self.header.stop.stop.connect(self.stop)
@@ -38,6 +43,8 @@ class Window(QMainWindow):
         self.setStatusBar(self.status)
         self.docks: dict[str, Dock] = {}
         self.submenus = {"recent": QMenu("Open recent"), "panels": QMenu("Panels")}
+        self._areas: dict[Qt.DockWidgetArea, list[Dock]] = {}
+        self._was_shown = False
         self._shown: tuple[str, Kind] | None = None
         middle = QWidget()
         column = QVBoxLayout(middle)
@@ -49,13 +56,12 @@ class Window(QMainWindow):
         self.show_title("", Kind.OFFLINE)
 
     def add(self, title: str, content: QWidget, area: Qt.DockWidgetArea, moves: bool = False) -> Dock:
-        """A new dock; further ones in the same area become tabs."""
+        """A new dock; `arrange` makes those of one area tabs of each other."""
         dock = Dock(title, content, moves)
         dock.stop.connect(self.stop)
-        before = [each for each in self.docks.values() if self.dockWidgetArea(each) == area]
         self.addDockWidget(area, dock)
-        if before:
-            self.tabifyDockWidget(before[-1], dock)
+        dock.hide()
+        self._areas.setdefault(area, []).append(dock)
         self.docks[title] = dock
         self.submenus["panels"].addAction(dock.toggleViewAction())
         return dock
@@ -78,14 +84,28 @@ class Window(QMainWindow):
     def arrange(self, front: tuple[str, ...]) -> None:
         """A ready layout: every dock back in its place, those named in front."""
         for dock in self.docks.values():
-            dock.setFloating(False)
+            if dock.isFloating():
+                dock.setFloating(False)
+        for docks in self._areas.values():
+            for before, after in pairwise(docks):
+                self.tabifyDockWidget(before, after)
+        for dock in self.docks.values():
             dock.show()
         for title in front:
             self.docks[title].raise_()
+        self._size_docks()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if not self._was_shown:
+            self._was_shown = True
+            QTimer.singleShot(0, self.first_shown.emit)  # docks made tabs before that leave stray tab bars behind
+
+    def _size_docks(self) -> None:
         sides = [self.docks[title] for title in ("Instructions", "Display") if title in self.docks]
-        self.resizeDocks(sides, [264, 376][: len(sides)], Qt.Orientation.Horizontal)
+        self.resizeDocks(sides, [264, 360][: len(sides)], Qt.Orientation.Horizontal)
         if "Problems" in self.docks:
-            self.resizeDocks([self.docks["Problems"]], [176], Qt.Orientation.Vertical)
+            self.resizeDocks([self.docks["Problems"]], [184], Qt.Orientation.Vertical)
 
     def arrangement(self) -> dict[str, str]:
         """Place, size and docks, as text for the settings."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -40,7 +40,15 @@ class Panel(QWidget):
         """Something happened; called for every notice, visible or not."""
 
 
-def set_text(label: object, text: str) -> None:
+def set_text(label: QLabel, text: str) -> None:
     """Sets a label's text only when it differs, so that nothing is laid out again for nothing."""
-    if label.text() != text:  # type: ignore[attr-defined]
-        label.setText(text)  # type: ignore[attr-defined]
+    if label.text() != text:
+        label.setText(text)
+
+
+def show_role(widget: QWidget, role: str) -> None:
+    """Gives a widget another role of the style sheet; nothing happens when it has it already."""
+    if (widget.property("role") or "") != role:
+        widget.setProperty("role", role)
+        widget.style().unpolish(widget)
+        widget.style().polish(widget)

@@ -1,4 +1,4 @@
-"""Serial communication set-up: port, rate, bits, parity, echo and flow control, with the switches to set on the controller."""
+"""Serial communication set-up: port, rate, bits, parity, echo, flow control, and the switches on the controller."""
 
 from __future__ import annotations
 

@@ -26,13 +26,13 @@ WAYS = (
     Way(
         "simulator",
         "Use the simulator",
-        "A complete controller without hardware: write, run and tune; nothing real moves.",
+        "A complete controller without hardware; nothing real moves.",
         "simulator",
     ),
     Way(
         "serial",
         "Serial communication setup",
-        "Port, baud rate and flow control; shows the switches to set on the controller.",
+        "Port, baud rate and flow control, with the switches on the controller.",
         "connect",
     ),
     Way("setup", "Offline controller setup", "Model, axes, units and scaling; saved with the program.", "setup"),
@@ -41,7 +41,7 @@ WAYS = (
 
 
 class Welcome(QDialog):
-    """Never modal. `way` carries the name of what was chosen: simulator, serial, setup, offline, again, exit, allow, skip."""
+    """Never modal. `way` carries what was chosen: simulator, serial, setup, offline, again, exit, allow, skip."""
 
     way = Signal(str)
 
@@ -65,8 +65,8 @@ class Welcome(QDialog):
     def show_question(self, device: str, words: str) -> None:
         """Before anything is written to a port that was never used."""
         self.question.setText(
-            f"{words} ({device}) was never used here. May it be asked who it is? Only an empty line and a request for the version "
-            "are sent; another kind of device may take even that for an order."
+            f"{words} ({device}) was never used here. May it be asked who it is? Only an empty line and a request for "
+            "the version are sent; another kind of device may take even that for an order."
         )
         self._say("A new port", "", busy=False)
         self.ask.show()

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from device.api import Kind
@@ -16,7 +16,6 @@ from widgets.display.readings import axis_shown, switches_of
 from widgets.display.switches import SwitchTable
 from widgets.display.threads import ThreadList
 from widgets.panel import Panel, set_text
-from widgets.parts.kind import KindBadge
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from device.api import Controller, Row
 
 AXIS_VALUES = ("position", "commanded", "error", "velocity", "switches", "stop_code")
+LAMP = 24  # px; inputs are read, not clicked
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see positions, inputs and outputs here."
 
 
@@ -44,8 +44,9 @@ class DisplayPanel(Panel):
         self._letters = ""
         self._threads = 0
         self.axes: dict[str, AxisReadout] = {}
-        self.badge, self.rate, self.empty = KindBadge(), QLabel(), QLabel(EMPTY)
-        self.inputs, self.outputs, self.switches, self.threads = Levels(), Levels(), SwitchTable(), ThreadList()
+        self.rate, self.empty = QLabel(), QLabel(EMPTY)
+        self.inputs, self.outputs = Levels(LAMP), Levels()
+        self.switches, self.threads = SwitchTable(), ThreadList()
         self.io_control = QCheckBox("I/O control")
         self._lay_out()
         self.io_control.clicked.connect(self.io_control_wanted)
@@ -106,8 +107,6 @@ class DisplayPanel(Panel):
         linked = controller is not None and controller.kind is not Kind.OFFLINE and self._setup is not None
         self.empty.setVisible(not linked)
         self._body.setVisible(linked)
-        if controller is not None:
-            self.badge.show_kind(controller.kind)
         if not linked or controller is None or self._setup is None:
             return
         letters, model = controller.axes or self._setup.letters, controller.model
@@ -131,9 +130,8 @@ class DisplayPanel(Panel):
 
     def _lay_out(self) -> None:
         outer = QVBoxLayout(self)
-        outer.setContentsMargins(8, 8, 8, 8)
+        outer.setContentsMargins(8, 0, 8, 4)
         head = QHBoxLayout()
-        head.addWidget(self.badge)
         head.addStretch(1)
         head.addWidget(self.rate)
         self.rate.setProperty("role", "quiet")
@@ -143,6 +141,7 @@ class DisplayPanel(Panel):
         outer.addWidget(self.empty)
         self._body = QScrollArea()
         self._body.setWidgetResizable(True)
+        self._body.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._body.setFrameShape(QFrame.Shape.NoFrame)
         inside = QWidget()
         self._body.setWidget(inside)

@@ -18,8 +18,9 @@ class Levels(QWidget):
 
     wanted = Signal(int, bool)  # number, level the person asks for
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, height: int | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._height = height
         self.lamps: list[Lamp] = []
         self._names: list[str] = []
         self._grid = QGridLayout(self)
@@ -55,6 +56,6 @@ class Levels(QWidget):
             lamp.show_switchable(switchable, why_not)
 
     def _add(self, number: int) -> None:
-        lamp = Lamp(number)
+        lamp = Lamp(number, height=self._height)
         lamp.wanted.connect(lambda on: self.wanted.emit(number, on))
         self.lamps.append(lamp)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from widgets.panel import set_text
 from widgets.parts.look import look
@@ -79,6 +79,8 @@ class AxisReadout(QWidget):
         self.travel = Travel(letter)
         for label in (self.unit, self.commanded, self.error, self.age):
             label.setProperty("role", "quiet")
+        self.unit.setContentsMargins(0, 0, 0, 5)  # on the base line of the digits
+        self.name.setContentsMargins(0, 0, 0, 2)
         self._lay_out()
         self._dress()
         self.show_axis(AxisShown())
@@ -110,17 +112,21 @@ class AxisReadout(QWidget):
         grid.setContentsMargins(8, 4, 8, 4)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(0)
-        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
+        right = Qt.AlignmentFlag.AlignRight
         grid.addWidget(self.name, 0, 0, Qt.AlignmentFlag.AlignBottom)
-        grid.addWidget(self.position, 0, 1, right)
+        grid.addWidget(self.position, 0, 1, right | Qt.AlignmentFlag.AlignBottom)
         grid.addWidget(self.unit, 0, 2, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom)
-        grid.addWidget(self.state, 0, 3, right)
-        grid.addWidget(self.commanded, 1, 1, 1, 2, Qt.AlignmentFlag.AlignRight)
-        grid.addWidget(self.error, 1, 3, Qt.AlignmentFlag.AlignRight)
-        grid.addWidget(self.travel, 2, 0, 1, 3)
-        grid.addWidget(self.age, 2, 3, Qt.AlignmentFlag.AlignRight)
-        grid.setColumnStretch(1, 3)
-        grid.setColumnStretch(3, 2)
+        second, third = QHBoxLayout(), QHBoxLayout()
+        second.addWidget(self.state)
+        second.addStretch(1)
+        second.addWidget(self.commanded)
+        third.addWidget(self.travel, 1)
+        third.addWidget(self.age)
+        third.addStretch(0)
+        third.addWidget(self.error)
+        grid.addLayout(second, 1, 0, 1, 3)
+        grid.addLayout(third, 2, 0, 1, 3)
+        grid.setColumnStretch(1, 1)
 
     def _dress(self) -> None:
         """Fonts and the axis colour."""

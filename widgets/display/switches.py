@@ -5,27 +5,26 @@ from __future__ import annotations
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from widgets.display.readings import Switches
-from widgets.panel import set_text
+from widgets.panel import set_text, show_role
 
-HEADS = ("", "Forward limit", "Reverse limit", "Home", "Motor", "Error")
+HEADS = ("Forward limit", "Reverse limit", "Home", "Motor", "Error")
 
 
 class SwitchTable(QWidget):
-    """One row an axis; `show_axis` is its setter."""
+    """One column an axis; `show_axis` is its setter."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setContentsMargins(8, 0, 0, 0)
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(4)
         self._cells: dict[str, tuple[QLabel, ...]] = {}
         self._shown: dict[str, Switches] = {}
-        for column, head in enumerate(HEADS):
+        for row, head in enumerate(HEADS, start=1):
             label = QLabel(head)
             label.setProperty("role", "quiet")
-            self._grid.addWidget(label, 0, column)
-        self._grid.setColumnStretch(len(HEADS), 1)
+            self._grid.addWidget(label, row, 0)
 
     def show_axes(self, letters: str) -> None:
         """Which axes there are."""
@@ -34,12 +33,13 @@ class SwitchTable(QWidget):
                 for label in self._cells.pop(letter):
                     label.deleteLater()
                 self._shown.pop(letter, None)
-        for row, letter in enumerate(letters, start=1):
+        for column, letter in enumerate(letters, start=1):
             if letter not in self._cells:
-                cells = tuple(QLabel(letter if column == 0 else "–") for column in range(len(HEADS)))
-                for column, label in enumerate(cells):
+                cells = tuple(QLabel(letter if row == 0 else "?") for row in range(len(HEADS) + 1))
+                for row, label in enumerate(cells):
                     self._grid.addWidget(label, row, column)
                 self._cells[letter] = cells
+            self._grid.setColumnStretch(column, 1)
 
     def show_axis(self, letter: str, switches: Switches) -> None:
         """The words of one axis."""
@@ -56,14 +56,10 @@ class SwitchTable(QWidget):
         )
         for label, word in zip(self._cells[letter], words, strict=True):
             set_text(label, word)
-            role = "fault" if word.startswith("!") else "quiet" if switches.stale else ""
-            if label.property("role") != role:
-                label.setProperty("role", role)
-                label.style().unpolish(label)
-                label.style().polish(label)
+            show_role(label, "fault" if word.startswith("!") else "quiet" if switches.stale else "")
 
     def words(self, letter: str) -> tuple[str, ...]:
-        """What the row says now."""
+        """What the column says now."""
         return tuple(label.text() for label in self._cells[letter])
 
 

@@ -10,7 +10,10 @@ from widgets.parts.icons import icon
 from widgets.parts.kind import KindBadge
 
 WATCH = "Reads only: nothing is sent that moves or changes anything. STOP always works."
-CONTROL = "Moving, setting, downloading and burning are allowed. Falls back to Watch after a reconnect or when nobody does anything."
+CONTROL = (
+    "Moving, setting, downloading and burning are allowed. "
+    "Falls back to Watch after a reconnect or when nobody does anything."
+)
 
 
 class ControlSwitch(QWidget):

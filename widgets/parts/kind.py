@@ -72,22 +72,38 @@ def _stripes(light: QColor, dark: QColor) -> QBrush:
 
 
 class KindFrame(QFrame):
-    """A frame with the border of the kind around whatever moves something."""
+    """Around whatever moves something: the border of the kind with its word set into the top of it."""
+
+    TOP = 20  # px above the content, for the word
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._kind = Kind.OFFLINE
-        self.setContentsMargins(BORDER + 1, BORDER + 1, BORDER + 1, BORDER + 1)
+        self.setContentsMargins(BORDER + 1, self.TOP, BORDER + 1, BORDER + 1)
+
+    @property
+    def text(self) -> str:
+        """The word that is shown."""
+        return WORDS[self._kind]
 
     def show_kind(self, kind: Kind) -> None:
-        """Which border to wear."""
+        """Which word and border."""
         if kind is not self._kind:
             self._kind = kind
+            self.setToolTip("")
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
-        paint_border(painter, QRectF(self.rect()), self._kind)
+        paint_border(painter, QRectF(self.rect()).adjusted(1, 7, -1, -1), self._kind)
+        font = look().small_font()
+        font.setBold(True)
+        painter.setFont(font)
+        width = painter.fontMetrics().horizontalAdvance(self.text) + 16
+        word = QRectF(16, 0, width, 18)
+        painter.fillRect(word, look().colour("window"))
+        painter.setPen(look().colour("text"))
+        painter.drawText(word, Qt.AlignmentFlag.AlignCenter, self.text)
 
 
 class KindBadge(QWidget):

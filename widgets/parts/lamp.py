@@ -14,8 +14,9 @@ class Lamp(QAbstractButton):
 
     wanted = Signal(bool)  # the person wants it on (True) or off
 
-    def __init__(self, number: int, name: str = "", parent: QWidget | None = None) -> None:
+    def __init__(self, number: int, name: str = "", height: int | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._height = height
         self.number = number
         self._name = name
         self._on: bool | None = None
@@ -54,10 +55,10 @@ class Lamp(QAbstractButton):
             self.update()
 
     def sizeHint(self) -> QSize:
-        return QSize(112, look().control)
+        return QSize(112, self._height or look().control)
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(84, look().control)
+        return QSize(84, self._height or look().control)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

@@ -23,10 +23,6 @@ from codegen.models import MODELS
 from codegen.setup import Axis, Setup, Unit, setup_problems
 from widgets.parts.look import look
 
-MODEL_WORDS = {
-    "ssc1": "SSC, 1 axis", "ssc2": "SSC, 2 axes", "ssc3": "SSC, 3 axes", "ssc4": "SSC, 4 axes",
-    "dmc1412": "DMC-1412, 1 axis", "dmc1414": "DMC-1414, 1 axis with amplifier", "smartmotor": "SmartMotor, 1 axis",
-}  # fmt: skip
 UNIT_WORDS = {
     Unit.INCH: "inch", Unit.FOOT: "foot", Unit.MM: "mm", Unit.CM: "cm", Unit.METRE: "m",
     Unit.DEGREE: "degree", Unit.COUNT: "count", Unit.OWN: "own unit…",
@@ -135,9 +131,8 @@ class SetupPage(QDialog):
         self._before, self._has_content = setup, has_content
         self.model = QComboBox()
         self.model.setAccessibleName("Controller model")
-        for name, words in MODEL_WORDS.items():
-            if name in MODELS:
-                self.model.addItem(words, name)
+        for model in MODELS.values():
+            self.model.addItem(model.title, model.name)
         self.model.setCurrentIndex(max(0, self.model.findData(setup.model)))
         self.rows = {letter: AxisRow(letter, setup.axis(letter)) for letter in "XYZW"}
         self.inputs = NameGrid("Input", setup.input_names)
@@ -209,7 +204,8 @@ class SetupPage(QDialog):
         frame.setProperty("role", "card")
         words = QLabel(
             "The scale has changed and the program already holds positions. What should stay the same?\n"
-            "In units: 10 in stays 10 in, other counts are sent. In counts: the machine moves as before, the numbers change."
+            "In units: 10 in stays 10 in, other counts are sent. "
+            "In counts: the machine moves as before, the numbers change."
         )
         words.setWordWrap(True)
         self.keep_units, self.keep_counts = QPushButton("Keep the numbers in units"), QPushButton("Keep the counts")

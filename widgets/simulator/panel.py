@@ -21,7 +21,6 @@ from PySide6.QtWidgets import (
 
 from device.api import Kind
 from widgets.panel import Panel
-from widgets.parts.kind import KindBadge
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -36,6 +35,7 @@ class SimulatorPanel(Panel):
     """Everything goes up as `stimulus(signal, value)` with the names of the command line's --stimulus."""
 
     title = "Simulator"
+    moves = True
     stimulus = Signal(str, float)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -46,15 +46,15 @@ class SimulatorPanel(Panel):
         self.switches: dict[str, QCheckBox] = {}
         self.volts: dict[int, QDoubleSpinBox] = {}
         self.pushes: dict[str, QDoubleSpinBox] = {}
-        self.badge, self.empty = KindBadge(), QLabel(EMPTY)
+        self.empty = QLabel(EMPTY)
         self.empty.setWordWrap(True)
         self.empty.setProperty("role", "quiet")
         self._area = QScrollArea()
         self._area.setWidgetResizable(True)
+        self._area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._area.setFrameShape(QFrame.Shape.NoFrame)
         column = QVBoxLayout(self)
-        column.setContentsMargins(8, 8, 8, 8)
-        column.addWidget(self.badge)
+        column.setContentsMargins(8, 0, 8, 4)
         column.addWidget(self.empty)
         column.addWidget(self._area, 1)
         column.addStretch(0)
@@ -62,7 +62,6 @@ class SimulatorPanel(Panel):
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
-        self.badge.show_kind(controller.kind)
         self._built = ()
         self._build()
 

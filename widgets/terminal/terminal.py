@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
 
 from device.api import Kind, NoticeKind
 from widgets.panel import Panel, set_text
-from widgets.parts.kind import KindBadge
 from widgets.parts.look import look
 
 if TYPE_CHECKING:
@@ -49,7 +48,6 @@ class TerminalPanel(Panel):
         self._typed: list[str] = []
         self._at = 0
         self._seen = 0
-        self.badge = KindBadge()
         self.log, self.line = QPlainTextEdit(), QLineEdit()
         self.send, self.clear = QPushButton("Send"), QPushButton("Clear")
         self.traffic = QCheckBox("Show live reads")
@@ -63,7 +61,6 @@ class TerminalPanel(Panel):
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
-        self.badge.show_kind(controller.kind)
         self._seen = 0
         if controller.kind is not Kind.OFFLINE:
             self.write("note", f"— {controller.state_text} —")
@@ -156,15 +153,12 @@ class TerminalPanel(Panel):
         self.send.setProperty("role", "primary")
         self.why.setProperty("role", "warning")
         self.why.setWordWrap(True)
-        head, foot, column = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
-        head.addWidget(self.badge)
-        head.addWidget(self.traffic)
-        head.addStretch(1)
-        head.addWidget(self.clear)
+        self.log.setMinimumHeight(48)
+        foot, column = QHBoxLayout(), QVBoxLayout(self)
         foot.addWidget(self.line, 1)
-        foot.addWidget(self.send)
-        column.setContentsMargins(8, 8, 8, 8)
-        column.addLayout(head)
+        for widget in (self.send, self.traffic, self.clear):
+            foot.addWidget(widget)
+        column.setContentsMargins(8, 0, 8, 4)
         column.addWidget(self.log, 1)
         column.addWidget(self.why)
         column.addLayout(foot)
