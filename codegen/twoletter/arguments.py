@@ -136,7 +136,7 @@ def _master(cursor: Cursor, row: Row) -> Arguments:
 
 def _place(cursor: Cursor, row: Row, value: Callable[[Cursor], Expression]) -> Argument:
     """One place of a comma list: empty, `?` or a value."""
-    if cursor.kind == END or cursor.at(",") or cursor.at("{"):
+    if cursor.kind in (END, COMPARISON) or cursor.at(",") or cursor.at("{"):
         return Empty(Span(cursor.start, cursor.start))
     if cursor.at("?"):
         return _query(cursor, row)

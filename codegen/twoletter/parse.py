@@ -162,6 +162,7 @@ def _command(cursor: Cursor, name: str) -> Command:
         raise cursor.refuse("square-brackets", 55)
     arguments = READERS[row.takes](cursor, row)
     if len(arguments) < row.minimum and not (arguments and isinstance(arguments[0], Query)):
+        cursor.finish()
         raise cursor.refuse("too-few", 50)
     return Command(letters, arguments, span=Span(start, _last(cursor, start)))
 

@@ -116,9 +116,10 @@ def within(row: Limits, value: int, model: Model | None, axis_is_stepper: bool =
     return (low is None or value >= scaled(low)) and (high is None or value <= scaled(high))
 
 
-def rounded(step: Number | None, value: int) -> int:
+def rounded(row: Limits, value: int) -> int:
     """What a register of that step keeps of a scaled value: step 1 rounds down, other steps towards zero."""
-    if not step or step <= FRACTION:
+    step = row.step
+    if not step or step <= FRACTION or value in [scaled(extra) for extra in row.also]:
         return value
     if step == 1:
         return value >> 16 << 16
@@ -153,7 +154,7 @@ class Field:
         return within(self, value, model, axis_is_stepper)
 
     def stored(self, value: int) -> int:
-        return rounded(self.step, value)
+        return rounded(self, value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -228,7 +229,7 @@ class Row:
         return within(self, value, model, axis_is_stepper)
 
     def stored(self, value: int) -> int:
-        return rounded(self.step, value)
+        return rounded(self, value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -31,6 +31,7 @@ COMMUTATION: tuple[Row, ...] = (
         families=DMC141X,
         needs="commutation",
         confidence="medium",
+        profile="1412; public:PASTE1425 (0.00)",
     ),
     Row(
         name="BC",
@@ -44,6 +45,7 @@ COMMUTATION: tuple[Row, ...] = (
         families=DMC141X,
         needs="commutation",
         confidence="medium",
+        profile="1412",
     ),
     Row(
         name="BD",
@@ -81,6 +83,7 @@ COMMUTATION: tuple[Row, ...] = (
         families=DMC141X,
         needs="commutation",
         confidence="medium",
+        profile="1412",
     ),
     Row(
         name="BM",
@@ -96,6 +99,7 @@ COMMUTATION: tuple[Row, ...] = (
         families=DMC141X,
         needs="commutation",
         confidence="medium",
+        profile="1412; public:PASTE1425 (2000.00)",
     ),
     Row(
         name="BO",
@@ -112,6 +116,7 @@ COMMUTATION: tuple[Row, ...] = (
         families=DMC141X,
         needs="commutation",
         confidence="medium",
+        profile="1412; public:PASTE1425",
     ),
     Row(
         name="BS",
@@ -128,6 +133,7 @@ COMMUTATION: tuple[Row, ...] = (
         families=DMC141X,
         needs="commutation",
         confidence="medium",
+        profile="1412",
     ),
     Row(
         name="BZ",
@@ -146,5 +152,6 @@ COMMUTATION: tuple[Row, ...] = (
         needs="commutation",
         errors=(112, 113, 114),
         confidence="medium",
+        profile="1412",
     ),
 )

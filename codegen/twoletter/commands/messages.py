@@ -131,6 +131,7 @@ MESSAGES: tuple[Row, ...] = (
         example="LL",
         families=DMC141X,
         confidence="medium",
+        profile="1412; not in SSC list",
     ),
     Row(
         name="LV",
@@ -141,6 +142,7 @@ MESSAGES: tuple[Row, ...] = (
         example="LV",
         families=DMC141X,
         confidence="medium",
+        profile="1412; not in SSC list",
     ),
     Row(
         name="LA",
@@ -151,5 +153,6 @@ MESSAGES: tuple[Row, ...] = (
         example="LA",
         families=DMC141X,
         confidence="medium",
+        profile="1412; not in SSC list",
     ),
 )

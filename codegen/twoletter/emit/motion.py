@@ -9,6 +9,7 @@ from codegen.fields import Dimension, PerAxisText
 from codegen.instructions.configuration import AccelDecel
 from codegen.instructions.motion import (
     BeginMotion,
+    Beginning,
     Direction,
     Home,
     Homing,
@@ -94,7 +95,7 @@ def motion_parameters(parameters: MotionParameters, build: Build) -> Iterator[St
 
 def begin_motion(begin: BeginMotion, build: Build) -> Iterator[Statement]:
     """Axes together, or the path."""
-    yield for_axes("BG", begin.axes if begin.which is Which.AXES else "S")
+    yield for_axes("BG", begin.axes if begin.which is Beginning.AXES else "S")
 
 
 def stop_motion(stop: StopMotion, build: Build) -> Iterator[Statement]:
