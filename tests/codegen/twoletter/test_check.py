@@ -59,8 +59,8 @@ def test_places_mark_the_text_in_question() -> None:
     assert place(source) == [
         ("out-of-range", 1, "9000000"),
         ("missing-label", 1, "#B"),
-        ("unassigned", 2, "A"),
         ("mixed-operators", 2, "A+2*3"),
+        ("unassigned", 2, "A"),
     ]
 
 
