@@ -1,0 +1,80 @@
+"""The compiled loop, the plain one, and every way of cutting a run give the same bits."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy
+import pytest
+
+from device.simulator.kernel import compiled, layout
+from device.simulator.motion import Motion, Register
+from tests.device.simulator.kernel.scenario import mixed_run
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_compiled_and_plain_give_the_same_bits(seed: int) -> None:
+    one, other = mixed_run(True, 12000, 10**6, seed), mixed_run(False, 12000, 10**6, seed)
+    assert one[1].tobytes() == other[1].tobytes()
+    assert one[0].tobytes() == other[0].tobytes()
+
+
+@pytest.mark.parametrize("batch", [1, 7, 100])
+def test_every_batch_size_gives_the_same_bits(batch: int) -> None:
+    whole, cut = mixed_run(True, 20000, 10**6), mixed_run(True, 20000, batch)
+    assert whole[1].tobytes() == cut[1].tobytes()
+    differing = numpy.flatnonzero(whole[0].view(numpy.int64) != cut[0].view(numpy.int64))
+    assert set(differing) <= {layout.TRIPS}
+
+
+def test_the_mixed_run_really_moves_everything() -> None:
+    state, rows = mixed_run(True, 20000, 10**6)
+    assert numpy.isfinite(state).all()
+    for axis in range(4):
+        assert numpy.ptp(rows[:, 1 + 4 * axis]) > 1000
+        assert numpy.ptp(rows[:, 2 + 4 * axis]) > 1000
+
+
+def test_without_numba_the_plain_loop_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+    compiled.compiled_loop.cache_clear()
+    try:
+        motion = Motion(1)
+        assert not motion.compiled
+        with pytest.raises(compiled.CompilerMissing, match="numba can not be loaded"):
+            Motion(1, compiled=True)
+    finally:
+        compiled.compiled_loop.cache_clear()
+
+
+def test_a_snapshot_gives_any_moment_again() -> None:
+    motion = Motion(2)
+    motion.set(0, Register.JOG_SPEED, 20000)
+    motion.begin_jog(0)
+    motion.run(777)
+    moment = motion.snapshot()
+    motion.run(1000)
+    end = motion.snapshot()
+    motion.restore(moment)
+    assert motion.sample == 777
+    motion.run(1000)
+    assert motion.snapshot().tobytes() == end.tobytes()
+
+
+def test_the_cache_is_named_after_the_sources() -> None:
+    assert compiled.cache_folder().name == f"kernel-{compiled.source_version()}"
+    assert set(compiled.MODULES) | {"compiled"} == {
+        path.stem for path in compiled.Path(compiled.__file__).parent.glob("*.py") if not path.stem.startswith("_")
+    }
+
+
+def test_no_two_slots_share_a_place() -> None:
+    names = [name for name in vars(layout) if name.isupper()]
+    axis_names = names[names.index("SPEED_V") : names.index("DELAY_RING")]
+    assert [getattr(layout, name) for name in axis_names] == list(range(len(axis_names)))
+    assert len(axis_names) <= layout.DELAY_RING
+    header = names[names.index("AXES") : names.index("WATCH")]
+    places = [getattr(layout, name) for name in header]
+    assert places == sorted(set(places))
+    assert layout.ANALOG_1 >= layout.INPUT_1 + 8
+    assert max(places) < layout.WATCH
