@@ -17,7 +17,7 @@ from codegen.fields import SYSTEM_LABELS, Choice, fields_of
 from codegen.instructions import End, Instruction, Jump, Label, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
 from codegen.program import Section, Step, assigned, is_closed, program_label
-from codegen.read import problems
+from codegen.read import needed, problems
 from codegen.setup import Finding, Setup
 from codegen.twoletter.calls import BODY, Call
 from codegen.twoletter.emit import statements
@@ -97,17 +97,22 @@ class Compiled:
     names: tuple[str, ...]  # variables it gives a value
     errors: tuple[Finding, ...]
     warnings: tuple[Finding, ...]
+    noteworthy: bool  # whether the last pass has more to do than to add the lines
+
+
+def compiled(instruction: Instruction, setup: Setup) -> Compiled:
+    """Everything about one instruction that does not depend on its place."""
+    return _compiled(instruction, needed(instruction, setup))
 
 
 @lru_cache(maxsize=32768)
-def compiled(instruction: Instruction, setup: Setup) -> Compiled:
-    """The memo of the generator: everything about one instruction that does not depend on its place."""
+def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
     found = problems(instruction, setup)
     errors = tuple(finding for finding in found if finding.severity == "error")
     warnings = tuple(finding for finding in found if finding.severity != "error")
     defines, target = _labels(instruction)
     if errors:
-        return Compiled((), (), 0, defines, target, (), (), errors, warnings)
+        return Compiled((), (), 0, defines, target, (), (), errors, warnings, True)
     build = Build(setup)
     made = statements(instruction, build)
     texts = [statement.text for statement in made]
@@ -128,6 +133,7 @@ def compiled(instruction: Instruction, setup: Setup) -> Compiled:
         assigned(instruction),
         errors,
         warnings,
+        bool(errors or warnings or defines or target or arrays or isinstance(instruction, LoopRate)),
     )
 
 
@@ -177,17 +183,20 @@ class _Pass:
         self.arrays: list[str] = []
         self.first_array = -1
         self.made: dict[int, Compiled] = {}
+        self.raw_labels: list[str] = []
         self.taken = self.names_taken()
         self.number = 0
 
     def names_taken(self) -> set[str]:
-        """Every label and variable of the person, so that generated ones differ."""
+        """Every label and variable of the person, so that generated ones differ; compiles all steps on the way."""
         taken: set[str] = set()
+        made_of, setup = self.made, self.setup
         for step in self.program.steps():
-            made = compiled(step.instruction, self.setup)
-            self.made[id(step)] = made
+            made = made_of[id(step)] = compiled(step.instruction, setup)
             if made.defines:
                 taken.update(made.defines)
+                if type(step.instruction) is TwoLetterCode:
+                    self.raw_labels += made.defines
             if made.names:
                 taken.update(made.names)
         return taken
@@ -199,7 +208,7 @@ class _Pass:
         return str(self.number)
 
     def run(self) -> None:
-        label = program_label(self.program, self.raw_labels())
+        label = program_label(self.program, self.raw_labels)
         if self.program.auto:
             self.lines.append(Line("#AUTO"))
         self.lines.append(Line(f"#{label}"))
@@ -212,14 +221,6 @@ class _Pass:
         self.free_arrays()
         self.check_jumps()
 
-    def raw_labels(self) -> tuple[str, ...]:
-        return tuple(
-            name
-            for step in self.program.steps()
-            if isinstance(step.instruction, TwoLetterCode)
-            for name in self.made[id(step)].defines
-        )
-
     def walk(self, steps: tuple[Step, ...], section: Section) -> None:
         for step in steps:
             if step.enabled:
@@ -227,6 +228,23 @@ class _Pass:
 
     def step(self, step: Step, section: Section) -> None:
         made = self.made[id(step)]
+        if made.noteworthy:
+            self.remember(step, made, section)
+        numbers = [self.next_number() for _ in range(made.numbers)] if made.numbers else None
+        self.add(made.before, step.id, numbers)
+        if step.body:
+            self.walk(step.body, section)
+        if made.after:
+            self.add(made.after, step.id, numbers)
+
+    def add(self, texts: tuple[str, ...], step: str, numbers: list[str] | None = None) -> None:
+        if numbers is None:
+            self.lines += [Line(text, step) for text in texts]
+        else:
+            self.lines += [Line(_numbered(text, numbers), step) for text in texts]
+
+    def remember(self, step: Step, made: Compiled, section: Section) -> None:
+        """Problems, labels, jumps and arrays of a step."""
         if made.errors or made.warnings:
             self.problems += [
                 Finding(finding.field, finding.message, finding.severity, finding.axis, step.id)
@@ -235,20 +253,6 @@ class _Pass:
         if made.errors:
             problem = made.errors[0].message
             self.lines.append(Line(f"' {problem}", step.id, problem))
-        self.remember(step, made, section)
-        numbers = [self.next_number() for _ in range(made.numbers)] if made.numbers else []
-        self.add(made.before, step.id, numbers)
-        if step.body:
-            self.walk(step.body, section)
-        self.add(made.after, step.id, numbers)
-
-    def add(self, texts: tuple[str, ...], step: str, numbers: list[str]) -> None:
-        if numbers:
-            self.lines += [Line(_numbered(text, numbers), step) for text in texts]
-        else:
-            self.lines += [Line(text, step) for text in texts]
-
-    def remember(self, step: Step, made: Compiled, section: Section) -> None:
         for label in made.defines:
             if label in self.defined:
                 self.problems.append(Finding("name", f"The label {label} is used twice", "error", "", step.id))
@@ -273,7 +277,7 @@ class _Pass:
             return
         wanted = END_OF[routine.instruction.routine]
         if not is_closed(routine):
-            self.add(compiled(End(of=wanted), self.setup).before, routine.id, [])
+            self.add(compiled(End(of=wanted), self.setup).before, routine.id)
             self.problems.append(
                 Finding("", "This subroutine is not closed yet: add an End", "warning", "", routine.id)
             )

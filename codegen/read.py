@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, TypeAlias
 
-from codegen.fields import AXES, Context, Field, ListOf, PerAxis, Quantity, fields_of, is_shown, joined
+from codegen.fields import (
+    AXES,
+    AxisName,
+    AxisSet,
+    Context,
+    Field,
+    ListOf,
+    PerAxis,
+    Quantity,
+    fields_of,
+    is_shown,
+    joined,
+)
 from codegen.instructions.instruction import Instruction
 from codegen.setup import Finding, Setup
 
@@ -168,12 +181,40 @@ def _sentence_of(item: Any, setup: Setup) -> str:
     )
 
 
-@lru_cache(maxsize=32768)
 def sentence(instruction: Instruction, setup: Setup) -> str:
     """The instruction in one line of plain English, with values and units."""
+    return _sentence(instruction, needed(instruction, setup))
+
+
+@lru_cache(maxsize=32768)
+def _sentence(instruction: Instruction, setup: Setup) -> str:
     special = getattr(instruction, "samples_note", None)
     text = _sentence_of(instruction, setup)
     return text + special(setup) if special is not None else text
+
+
+# ---------------------------------------------------------------------- memos
+
+
+@lru_cache(maxsize=256)
+def _has_axes(kind: type[Any]) -> bool:
+    return any(
+        isinstance(field, AxisName | AxisSet | PerAxis)
+        or (isinstance(field, Quantity) and field.axis)
+        or (isinstance(field, ListOf) and any(name in fields_of(field.row) for name in ("axis", "axes")))
+        for field in fields_of(kind).values()
+    )
+
+
+@lru_cache(maxsize=64)
+def _without_axes(setup: Setup) -> Setup:
+    return dc.replace(setup, axes=Setup().axes)
+
+
+def needed(instruction: Instruction, setup: Setup) -> Setup:
+    """The setup as far as an instruction depends on it: what is known of it stays known when a scale changes."""
+    kind: Any = type(instruction)
+    return setup if _has_axes(kind) else _without_axes(setup)
 
 
 # ---------------------------------------------------------------------- fields
@@ -249,9 +290,13 @@ def unit_text(item: Any, name: str, setup: Setup, axis: str = "") -> str:
     return field.unit(context_of(item, name, setup, axis))
 
 
-@lru_cache(maxsize=32768)
 def problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
     """Everything to put right in an instruction, errors before warnings."""
+    return _problems(instruction, needed(instruction, setup))
+
+
+@lru_cache(maxsize=32768)
+def _problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
     found: list[Finding] = []
     for name, field in fields_of(instruction).items():
         value = getattr(instruction, name)

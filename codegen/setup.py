@@ -166,15 +166,11 @@ class Setup:
     serial_number: str = ""
 
     def __hash__(self) -> int:
-        return self._hash
-
-    @property
-    def _hash(self) -> int:
-        known = self.__dict__.get("_known_hash")
+        known: int | None = self.__dict__.get("_known_hash")
         if known is None:
             known = hash(tuple(getattr(self, field.name) for field in dc.fields(self)))
             object.__setattr__(self, "_known_hash", known)
-        return int(known)
+        return known
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: kept for name, kept in self.__dict__.items() if name != "_known_hash"}

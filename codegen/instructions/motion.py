@@ -219,6 +219,11 @@ class Which(StrEnum):
     EVERYTHING = "everything"
 
 
+class Beginning(StrEnum):
+    AXES = "axes"
+    PATH = "path"
+
+
 @dc.dataclass(frozen=True, kw_only=True)
 class BeginMotion(Instruction):
     """Starts motion that was prepared before."""
@@ -228,16 +233,16 @@ class BeginMotion(Instruction):
     sentence = "[Begin motion of {axes}|Begin {which}]"
     help = "Starts the prepared moves of some axes at the same moment, or the prepared path."
 
-    which: Which = value(
+    which: Beginning = value(
         Choice(
             label="What",
-            kind=Which,
-            words={Which.AXES: "Axes", Which.PATH: "the path"},
+            kind=Beginning,
+            words={Beginning.AXES: "Axes", Beginning.PATH: "the path"},
             help="Moves of single axes, or the coordinated path.",
         ),
-        Which.AXES,
+        Beginning.AXES,
     )
-    axes: str = value(AxisSet(label="Axes", when={"which": Which.AXES}, help="The axes that start together."), "X")
+    axes: str = value(AxisSet(label="Axes", when={"which": Beginning.AXES}, help="The axes that start together."), "X")
 
     @classmethod
     def example(cls) -> BeginMotion:
