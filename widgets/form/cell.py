@@ -45,6 +45,7 @@ class Cell(QWidget):
             whole.addWidget(self.counts)
         whole.addWidget(self.problem)
         self.problem.hide()
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.editor.changed.connect(self.changed)
         self._name = name
 

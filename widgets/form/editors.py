@@ -92,7 +92,7 @@ class ExpressionEditor(QWidget):
     def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.line = LineEditor(field, offers)
-        self.line.setMinimumWidth(220)
+        self.line.setMinimumWidth(160)
         self.line.setMaximumWidth(FREE)
         self.line.setFont(look().code_font())
         button = QToolButton()
@@ -123,7 +123,7 @@ class TextArea(QPlainTextEdit):
         self.setTabChangesFocus(True)
         self.setMinimumHeight(look().control * 3)
         self.setMaximumHeight(look().control * 5)
-        self.setMinimumWidth(320)
+        self.setMinimumWidth(240)
         if isinstance(field, fields.Code):
             self.setFont(look().code_font())
         self.textChanged.connect(lambda: self.changed.emit(self.toPlainText()))
@@ -242,6 +242,8 @@ class ComboEditor(QComboBox):
     def __init__(self, choices: Sequence[tuple[Any, str]], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setMinimumHeight(look().control)
+        self.setMinimumContentsLength(10)
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.keys = [key for key, _ in choices]
         self.addItems([words for _, words in choices])
         self.activated.connect(lambda _: self.changed.emit(self.value()))
@@ -319,6 +321,11 @@ def choice(field: fields.Choice, offers: Offers) -> QWidget:
     words = [words_of(field, key) for key in field.kind]
     if len(words) <= 4 and sum(map(len, words)) <= 40:
         return ChoiceButtons(field, offers)
+    return choice_list(field)
+
+
+def choice_list(field: fields.Choice) -> ComboEditor:
+    """A choice as a list, where there is little room."""
     return ComboEditor([(key, words_of(field, key)) for key in field.kind])
 
 

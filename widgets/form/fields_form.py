@@ -9,11 +9,11 @@ from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
-from widgets.form.editors import AXIS_EDITORS, EDITORS
+from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list
 from widgets.form.offers import Offers
 from widgets.form.rows import RowsEditor
 from widgets.parts.look import look
@@ -26,16 +26,17 @@ class FieldsForm(QWidget):
 
     edited = Signal(object)
 
-    def __init__(self, offers: Offers, parent: QWidget | None = None) -> None:
+    def __init__(self, offers: Offers, *, narrow: bool = False, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.offers = offers
+        self.narrow = narrow  # labels above their fields, lists instead of rows of buttons
         self.item: Any = None
         self.cells: dict[Key, Cell] = {}
         self.labels: dict[str, list[QWidget]] = {}
-        self.grid = QGridLayout(self)
-        self.grid.setContentsMargins(0, 0, 0, 0)
-        self.grid.setHorizontalSpacing(12)
-        self.grid.setVerticalSpacing(8)
+        self.column = QVBoxLayout(self)
+        self.column.setContentsMargins(0, 0, 0, 0)
+        self.inside = QWidget()
+        self.grid = QGridLayout(self.inside)
 
     # ---- showing
 
@@ -86,19 +87,23 @@ class FieldsForm(QWidget):
     # ---- building
 
     def _build(self) -> None:
-        for cell in self.cells.values():
-            cell.deleteLater()
-        for widgets in self.labels.values():
-            for widget in widgets:
-                widget.deleteLater()
+        old, self.inside = self.inside, QWidget()
         self.cells.clear()
         self.labels.clear()
+        self.grid = QGridLayout(self.inside)
+        self.grid.setContentsMargins(0, 0, 0, 0)
+        self.grid.setHorizontalSpacing(12)
+        self.grid.setVerticalSpacing(8)
         row = 0
         for per_axis, group in groupby(fields.fields_of(self.item).items(), key=_table_key):
             members = dict(group)
             row = self._add_table(members, row) if per_axis is not None else self._add_rows(members, row)
         self.grid.setRowStretch(row, 1)
         self.grid.setColumnStretch(5, 1)
+        self.column.addWidget(self.inside)
+        old.hide()
+        self.column.removeWidget(old)
+        old.deleteLater()
         if self.isVisible():
             self._order_tabs()
 
@@ -109,19 +114,28 @@ class FieldsForm(QWidget):
 
     def _add_rows(self, members: Mapping[str, fields.Field], row: int) -> int:
         for name, field in members.items():
-            cell = self._cell(name, "", field, make_editor(field, self.offers), field.label, wide=True)
-            own_words = isinstance(field, fields.Flag)
-            label = QLabel("" if own_words else field.label)
-            label.setBuddy(cell.editor)
-            label.setFixedHeight(look().control)
-            label.setToolTip(field.help)
-            tall = isinstance(field, fields.ListOf) or getattr(field, "lines", False)
-            across = Qt.AlignmentFlag.AlignTop if tall else Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft
-            self.grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignTop)
-            self.grid.addWidget(cell, row, 1, 1, 5, Qt.AlignmentFlag(0) if tall or not own_words else across)
+            editor = make_editor(field, self.offers, narrow=self.narrow)
+            cell = self._cell(name, "", field, editor, field.label, wide=not self.narrow)
+            label = self._label(field, editor)
             self.labels[name] = [label]
+            if self.narrow:
+                self.grid.addWidget(label, row, 0, 1, 6)
+                row += not isinstance(field, fields.Flag)
+                self.grid.addWidget(cell, row, 0, 1, 6)
+            else:
+                self.grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignTop)
+                self.grid.addWidget(cell, row, 1, 1, 5)
             row += 1
         return row
+
+    def _label(self, field: fields.Field, editor: QWidget) -> QLabel:
+        """The words before an editor; a flag carries its own."""
+        label = QLabel("" if isinstance(field, fields.Flag) else field.label)
+        label.setBuddy(editor)
+        if not self.narrow:
+            label.setFixedHeight(look().control)
+        label.setToolTip(field.help)
+        return label
 
     def _add_table(self, members: Mapping[str, fields.Field], row: int) -> int:
         """Values of several axes: one row for each axis, one column for each field."""
@@ -146,7 +160,7 @@ class FieldsForm(QWidget):
         return row + 1 + len(letters)
 
     def _cell(self, name: str, axis: str, field: fields.Field, editor: QWidget, words: str, *, wide: bool) -> Cell:
-        cell = Cell(editor, words, field.help, wide=wide, parent=self)
+        cell = Cell(editor, words, field.help, wide=wide, parent=self.inside)
         cell.changed.connect(lambda value: self._changed(name, axis, value))
         self.cells[name, axis] = cell
         return cell
@@ -169,10 +183,12 @@ class FieldsForm(QWidget):
             QWidget.setTabOrder(one, other)
 
 
-def make_editor(field: fields.Field, offers: Offers) -> QWidget:
+def make_editor(field: fields.Field, offers: Offers, *, narrow: bool = False) -> QWidget:
     """The editor for a field that stands alone."""
     if isinstance(field, fields.ListOf):
-        return RowsEditor(field, offers, FieldsForm)
+        return RowsEditor(field, offers, lambda offers: FieldsForm(offers, narrow=narrow), narrow=narrow)
+    if narrow and isinstance(field, fields.Choice):
+        return choice_list(field)
     editor: QWidget = EDITORS[type(field)](field, offers)
     return editor
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from codegen import read
+from codegen.generate import code, compiled
 from codegen.instructions import Instruction
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
@@ -18,10 +19,11 @@ class InstructionForm(QWidget):
 
     edited = Signal(object)
 
-    def __init__(self, offers: Offers, parent: QWidget | None = None) -> None:
+    def __init__(self, offers: Offers, *, grows: bool = True, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.offers = offers
-        self.fields = FieldsForm(offers)
+        self.grows = grows  # whether the window is to make room for all fields
+        self.fields = FieldsForm(offers, narrow=not grows)
         self.fields.edited.connect(self._edited)
         self.preview = Preview()
         self.nothing = QLabel("This instruction has nothing to set.")
@@ -31,6 +33,7 @@ class InstructionForm(QWidget):
         self._beside.setSpacing(16)
         self._beside.addWidget(self.fields, 1)
         inside = QWidget()
+        inside.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         column = QVBoxLayout(inside)
         column.setContentsMargins(0, 0, 8, 0)
         column.addWidget(self.nothing)
@@ -56,8 +59,8 @@ class InstructionForm(QWidget):
 
     def problem(self) -> str:
         """The first reason why the instruction is not right; empty when it is."""
-        found = read.problems(self.instruction, self.offers.setup)
-        return next((finding.message for finding in found if finding.severity == "error"), "")
+        errors = compiled(self.instruction, self.offers.setup).errors
+        return errors[0].message if errors else ""
 
     def show_instruction(self, instruction: Instruction) -> None:
         """Shows `instruction`; typing places stay where they are if it is of the same kind."""
@@ -76,9 +79,7 @@ class InstructionForm(QWidget):
 
     def _refresh(self) -> None:
         setup = self.offers.setup
-        self.preview.show_words(
-            read.sentence(self.instruction, setup), read.code(self.instruction, setup), self.problem()
-        )
+        self.preview.show_words(read.sentence(self.instruction, setup), code(self.instruction, setup), self.problem())
         if self.picture is not None:
             self.picture.show_instruction(self.instruction)  # type: ignore[attr-defined]
 
@@ -93,6 +94,8 @@ class InstructionForm(QWidget):
 
     def _fit(self) -> None:
         """High enough to show all fields without scrolling, as far as the screen allows."""
+        if not self.grows:
+            return
         self._inside.adjustSize()
         wanted = self._inside.sizeHint()
         self.scroll.setMinimumHeight(min(wanted.height() + 8, 460))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from codegen.instructions import Instruction
@@ -31,6 +31,8 @@ class Inspector(QWidget):
         self.stack = QStackedWidget()
         self.stack.addWidget(self.empty)
         self.stack.addWidget(self.form)
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.setMinimumWidth(280)
         column = QVBoxLayout(self)
         column.addWidget(self.heading)
         column.addWidget(self.stack, 1)
@@ -55,7 +57,7 @@ class Inspector(QWidget):
             self.edited.emit(self.step.id, instruction, f"inspector {self.step.id}")
 
     def _new_form(self) -> InstructionForm:
-        form = InstructionForm(self.offers)
+        form = InstructionForm(self.offers, grows=False)
         form.edited.connect(self._edited)
         return form
 

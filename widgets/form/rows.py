@@ -21,10 +21,13 @@ class RowsEditor(QWidget):
 
     changed = Signal(object)
 
-    def __init__(self, field: fields.ListOf, offers: Offers, make_form: Callable[[Offers], Any]) -> None:
+    def __init__(
+        self, field: fields.ListOf, offers: Offers, make_form: Callable[[Offers], Any], *, narrow: bool = False
+    ) -> None:
         super().__init__()
         self.field = field
         self.offers = offers
+        self.narrow = narrow
         self.rows: tuple[Any, ...] = ()
         self.list = QListWidget()
         self.list.setAccessibleName(field.label)
@@ -133,7 +136,8 @@ class RowsEditor(QWidget):
         return f"{number}    {'  '.join(part for part in parts if part) or '…'}"
 
     def _button(self, text: str, picture: str, action: Callable[[], None]) -> QPushButton:
-        button = QPushButton(icon(picture), text)
+        button = QPushButton(icon(picture), "" if self.narrow else text)
+        button.setToolTip(f"{text}: {self.field.label}")
         button.setMinimumHeight(look().control)
         button.setAutoDefault(False)
         button.setAccessibleName(f"{text}: {self.field.label}")

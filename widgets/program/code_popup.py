@@ -48,7 +48,7 @@ def _numbered(words: Words, step: Step) -> list[str]:
     listing = words.listing
     if listing is None or not step.enabled:
         return []
-    return [f"{number:>4}  {listing.lines[number].text}" for number in listing.lines_of(step.id)]
+    return [f"{number:>4}  {listing.lines[number].text}" for number in words.lines_of(step.id)]
 
 
 def _reason(words: Words, step: Step) -> str:

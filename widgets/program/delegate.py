@@ -53,17 +53,19 @@ class ProgramDelegate(QStyledItemDelegate):
     # ---- parts of a row
 
     def _background(self, painter: QPainter, option: QStyleOptionViewItem, node: Node) -> None:
-        token, strength = "", 0
+        chosen = bool(option.state & QStyle.StateFlag.State_Selected)
         if self.error is not None and node.id == self.error[0]:
-            token, strength = "fault", 60
+            fault = QColor(look().colour("fault"))
+            fault.setAlpha(50)
+            painter.fillRect(option.rect, look().colour("surface"))
+            painter.fillRect(option.rect, fault)
         elif node.id in self.executing:
-            token, strength = "executing", 70
-        if option.state & QStyle.StateFlag.State_Selected:
+            painter.fillRect(option.rect, look().colour("executing"))
+        elif chosen:
             painter.fillRect(option.rect, look().colour("selection"))
-        if token:
-            colour = QColor(look().colour(token))
-            colour.setAlpha(strength)
-            painter.fillRect(option.rect, colour)
+            return
+        if chosen:
+            painter.fillRect(option.rect.adjusted(0, option.rect.height() - 2, 0, 0), look().colour("accent"))
 
     def _section(self, painter: QPainter, option: QStyleOptionViewItem, node: Node, column: int) -> None:
         painter.setPen(QPen(look().colour("line"), 1))
@@ -138,7 +140,7 @@ class ProgramDelegate(QStyledItemDelegate):
     # ---- words
 
     def _colour(self, option: QStyleOptionViewItem, token: str) -> QColor:
-        if option.state & QStyle.StateFlag.State_Selected and token in ("text", "quiet"):
+        if option.state & QStyle.StateFlag.State_Selected and token == "text":
             return option.palette.color(QPalette.ColorRole.HighlightedText)
         return look().colour(token)
 

@@ -20,7 +20,7 @@ class Header(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.name = self._line("Program name", "Name of the program", 180)
+        self.name = self._line("Program name", "Name of the program", 160)
         self.label = QLabel()
         self.label.setProperty("role", "code")
         self.label.setFont(look().code_font())
@@ -34,6 +34,10 @@ class Header(QWidget):
         row.addWidget(self.name)
         row.addWidget(self.label)
         row.addWidget(self.description, 1)
+        row.setStretchFactor(self.name, 1)
+        switch = QHBoxLayout()
+        switch.setSpacing(4)
+        row.addLayout(switch)
         self.group = QButtonGroup(self)
         self.modes: dict[str, QPushButton] = {}
         for mode, words in MODES.items():
@@ -45,7 +49,7 @@ class Header(QWidget):
             button.clicked.connect(lambda _=False, mode=mode: self.mode_chosen.emit(mode))
             self.group.addButton(button)
             self.modes[mode] = button
-            row.addWidget(button)
+            switch.addWidget(button)
 
     def show_program(self, program: Program) -> None:
         """Shows name, label and description; what is being typed stays."""
@@ -68,5 +72,6 @@ class Header(QWidget):
         line.setToolTip(hint)
         line.setMinimumHeight(look().control)
         if width:
-            line.setFixedWidth(width)
+            line.setMaximumWidth(width)
+        line.setMinimumWidth(88)
         return line

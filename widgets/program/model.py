@@ -33,6 +33,7 @@ class ProgramModel(QAbstractItemModel):
         super().__init__(parent)
         self.words = words
         self.root, self.nodes = empty_tree()
+        self.shown = Document(Program())  # what the rows show now
         self.copy_text: Callable[[Sequence[str]], str] = lambda ids: ""
 
     # ---- what Qt asks
@@ -142,14 +143,14 @@ class ProgramModel(QAbstractItemModel):
 
     # ---- following the document
 
-    def show(self, old: Document | None, new: Document) -> None:
-        """Shows `new`; rows of steps that stay keep their identity, so selection and scrolling stay too."""
-        before = Program() if old is None else old.program
-        for change in changes(before, new.program):
+    def show(self, new: Document) -> None:
+        """Goes from what the rows show to `new`; rows of steps that stay keep selection and scrolling."""
+        old, self.shown = self.shown, new
+        for change in changes(old.program, new.program):
             self._apply(change)
         for section in self.root.children:
             _adopt(section, new.program.section(Section(section.section)))
-        if old is not None and old.setup != new.setup:
+        if old.working_setup != new.working_setup:
             self.refresh()
 
     def refresh(self) -> None:

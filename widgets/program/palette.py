@@ -16,6 +16,7 @@ from widgets.program.model import NEW_MIME
 
 KIND = Qt.ItemDataRole.UserRole
 DOT = 10
+HINT = "Enter or a double click opens the dialog; or drag an instruction into the program."
 
 
 class PaletteTree(QTreeWidget):
@@ -61,7 +62,7 @@ class Palette(QWidget):
         self.tree.itemClicked.connect(self._clicked)
         self.tree.currentItemChanged.connect(self._current_changed)
         self.tree.setIconSize(QSize(DOT, DOT))
-        self.about = QLabel()
+        self.about = QLabel(HINT)
         self.about.setProperty("role", "quiet")
         self.about.setWordWrap(True)
         self.about.setMinimumHeight(64)
@@ -127,7 +128,7 @@ class Palette(QWidget):
     def _current_changed(self, item: QTreeWidgetItem | None) -> None:
         kind = None if item is None else item.data(0, KIND)
         text = "" if kind is None or item is None else item.toolTip(0)
-        self.about.setText(text)
+        self.about.setText(text or HINT)
         self.pointed_at.emit(text)
         self.setProperty("helpPage", kind.title if kind is not None else "Program window")
 

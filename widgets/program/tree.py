@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeView, QWidget
 
 from widgets.parts.look import look
@@ -49,6 +49,8 @@ class ProgramTree(QTreeView):
         self.doubleClicked.connect(self._activated)
         model.rowsInserted.connect(self._open_new)
         self.selectionModel().selectionChanged.connect(lambda *_: self.chosen_changed.emit())
+        for row in range(model.rowCount()):
+            self.setFirstColumnSpanned(row, QModelIndex(), True)
         self.expandAll()
 
     # ---- which steps
@@ -109,6 +111,11 @@ class ProgramTree(QTreeView):
     def show_code_column(self, shown: bool) -> None:
         """English beside its code, or English alone."""
         self.setColumnHidden(CODE, not shown)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """A third of the width is for the code, within reason."""
+        super().resizeEvent(event)
+        self.header().resizeSection(CODE, max(96, min(320, self.viewport().width() * 32 // 100)))
 
     def sizeHint(self) -> QSize:
         """A comfortable width to start with."""

@@ -79,11 +79,11 @@ class ProgramView(QWidget):
         """Brings everything from `old` to `new`; what did not change is not touched."""
         listing = self.session.listing
         self.words.show(new, listing)
-        self.model.show(old, new)
+        self.model.show(new)
         if old is None:
             self.tree.expandAll()
         self.tree.viewport().update()
-        self.code.show_lines([line.text for line in listing.lines], self._problem_lines(listing))
+        self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
         self.header.show_program(new.program)
         self.problems.show_problems(new, listing)
         self.dialogs.show_offers(offers_of(new))
@@ -138,6 +138,8 @@ class ProgramView(QWidget):
 
     def set_view(self, mode: str) -> None:
         """`program`: English beside its code; `both`: English and the listing; `code`: the listing."""
+        if mode == "both" and self.mode != "both":
+            self.splitter.setSizes([3 * self.width() // 5, 2 * self.width() // 5])
         self.mode = mode
         self.tree.setVisible(mode != "code")
         self.bar.setVisible(mode != "code" and bool(self.bar.text.text()))
@@ -322,8 +324,7 @@ class ProgramView(QWidget):
 
     def _show_selection(self, *, scroll: bool = True) -> None:
         chosen = self.tree.chosen()
-        listing = self.session.listing
-        self.code.show_chosen([line for step_id in chosen for line in listing.lines_of(step_id)], scroll=scroll)
+        self.code.show_chosen([line for step_id in chosen for line in self.words.lines_of(step_id)], scroll=scroll)
         one = self.step(chosen[0]) if len(chosen) == 1 else None
         self.inspector.show_step(one, offers_of(self.session.document))
 
@@ -358,12 +359,12 @@ class ProgramView(QWidget):
         self.tree.viewport().update()
         self.refresh_commands()
 
-    def _problem_lines(self, listing: Listing) -> dict[int, str]:
+    def _problem_lines(self) -> dict[int, str]:
         return {
             line: messages[0]
             for step, messages in self.words.problems.items()
             if step
-            for line in list(listing.lines_of(step))[:1]
+            for line in self.words.lines_of(step)[:1]
         }
 
     def _plain(self, step_id: str) -> str:

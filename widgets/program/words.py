@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from codegen import read
 from codegen.document import Document
-from codegen.generate import Listing
+from codegen.generate import Line, Listing
 from codegen.program import Step
 
 
@@ -16,11 +16,15 @@ class Words:
         self.listing: Listing | None = None
         self.problems: dict[str, list[str]] = {}
         self.errors: set[str] = set()
+        self._lines: dict[str, list[int]] = {}
 
     def show(self, document: Document, listing: Listing) -> None:
         """Speaks of `document` from now on."""
         self.document, self.listing = document, listing
-        self.problems, self.errors = {}, set()
+        self.problems, self.errors, self._lines = {}, set(), {}
+        for number, line in enumerate(listing.lines):
+            for step in (part[2] for part in line.spans) if line.spans else (line.step,):
+                self._lines.setdefault(step, []).append(number)
         for problem in listing.problems:
             self.problems.setdefault(problem.step, []).append(problem.message)
             if problem.severity == "error":
@@ -33,17 +37,20 @@ class Words:
         sentence = read.sentence(step.instruction, self.document.working_setup)
         return sentence if step.enabled else f"' {sentence}"
 
+    def lines_of(self, step_id: str) -> list[int]:
+        """The lines of code a step stands for, without those of its body."""
+        return self._lines.get(step_id, [])
+
     def code(self, step: Step) -> str:
         """The step's own lines of code on one line."""
         return "; ".join(self.code_lines(step))
 
     def code_lines(self, step: Step) -> list[str]:
-        """The lines the step stands for in the whole program, without those of its body."""
-        listing = self.listing
-        if listing is None or not step.enabled:
+        """The text of those lines; of a line that holds several steps, the step's part."""
+        if self.listing is None:
             return []
-        lines = [listing.lines[number] for number in listing.lines_of(step.id)]
-        return [line.text for line in lines if line.step == step.id]
+        lines = [self.listing.lines[number] for number in self.lines_of(step.id)]
+        return [_part(line, step.id) for line in lines if not line.problem]
 
     def problem(self, step: Step) -> str:
         """The first problem of a step, or nothing."""
@@ -63,3 +70,8 @@ class Words:
     def holds_steps(self, step: Step) -> bool:
         """Whether steps can stand inside this one."""
         return step.instruction.container
+
+
+def _part(line: Line, step_id: str) -> str:
+    parts = [line.text[start:end] for start, end, step in line.spans if step == step_id]
+    return ";".join(parts) if parts else line.text

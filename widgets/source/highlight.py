@@ -6,11 +6,13 @@ import re
 
 from PySide6.QtGui import QFont, QSyntaxHighlighter, QTextCharFormat, QTextDocument
 
+from codegen.twoletter.commands import COMMANDS
 from widgets.parts.look import look
 
 # The order counts: comments and texts first, so that nothing inside them is taken for a command.
 PARTS = re.compile(
     r"(?P<comment>(?:^|(?<=;))\s*(?:NO\b|REM\b|').*$)"
+    r"|(?P<variable>(?:^|(?<=;))\s*(?![A-Z]{2}[XYZW]=)[A-Za-z][A-Za-z0-9]{0,7}(?:\[[^\]]*\])?\s*(?==))"
     r"|(?P<string>\"[^\"]*\"?)"
     r"|(?P<label>#[A-Za-z][A-Za-z0-9]{0,6})"
     r"|(?P<operand>_[A-Z]{2}[A-Z0-9]?|@[A-Z]{2,4})"
@@ -23,6 +25,8 @@ COLOURS = {
     "label": "code_label",
     "operand": "code_command",
     "command": "code_command",
+    "variable": "text",
+    "error": "code_error",
     "number": "code_number",
 }
 
@@ -38,6 +42,8 @@ class Highlighter(QSyntaxHighlighter):
         """Colours one line."""
         for part in PARTS.finditer(text):
             kind = part.lastgroup or ""
+            if kind == "command" and part.group().strip() not in COMMANDS:
+                kind = "error"
             self.setFormat(part.start(), part.end() - part.start(), self._format(kind))
 
     def recolour(self) -> None:

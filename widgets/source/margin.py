@@ -41,7 +41,9 @@ class Margin(QWidget):
     def _line(self, painter: QPainter, number: int, top: float, height: float) -> None:
         threads = self.code.threads_at(number)
         problem = number in self.code.problem_lines
-        token = "executing" if threads else "warning" if problem else "quiet"
+        token = "text" if threads else "warning" if problem else "quiet"
+        if threads:
+            painter.fillRect(QRectF(0, top, self.width(), height), look().colour("executing"))
         painter.setPen(look().colour(token))
         box = QRectF(0, top, self.width() - 8, height)
         painter.drawText(box, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, str(number))

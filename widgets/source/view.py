@@ -30,6 +30,7 @@ class CodeView(QPlainTextEdit):
         self.setPlaceholderText("The two-letter code of your program appears here.")
         self.setProperty("role", "code")
         self.setProperty("helpPage", "Program window")
+        self.setMinimumWidth(176)
         self.setFont(look().code_font())
         self.lines: list[str] = []
         self.problem_lines: dict[int, str] = {}
@@ -149,17 +150,17 @@ class CodeView(QPlainTextEdit):
         self._following = False
 
     def _paint_extras(self) -> None:
-        tints = [(number, "selection") for number in self.chosen]
-        tints += [(number, "executing") for number in self.executing.values()]
+        tints = [(number, "selection", 255) for number in self.chosen]
+        tints += [(number, "executing", 255) for number in self.executing.values()]
         if self.error_line is not None:
-            tints.append((self.error_line, "fault"))
-        self.setExtraSelections([self._tint(number, token) for number, token in tints if number < len(self.lines)])
+            tints.append((self.error_line, "fault", 60))
+        self.setExtraSelections([self._tint(*tint) for tint in tints if tint[0] < len(self.lines)])
         self.margin.update()
 
-    def _tint(self, number: int, token: str) -> QTextEdit.ExtraSelection:
+    def _tint(self, number: int, token: str, strength: int) -> QTextEdit.ExtraSelection:
         selection = QTextEdit.ExtraSelection()
         colour = QColor(look().colour(token))
-        colour.setAlpha(70)
+        colour.setAlpha(strength)
         selection.format.setBackground(colour)
         selection.format.setProperty(QTextFormat.Property.FullWidthSelection, True)
         selection.cursor = QTextCursor(self.document().findBlockByNumber(number))
