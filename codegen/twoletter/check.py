@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from codegen.models import Model
-from codegen.twoletter.checks import flow, memory
+from codegen.twoletter.checks import flow, memory, motion
 from codegen.twoletter.checks.line import line_problems
 from codegen.twoletter.facts import Facts, gather
 from codegen.twoletter.parse import parse
@@ -28,6 +28,8 @@ CHECKS: tuple[Callable[[Facts], Iterator[Problem]], ...] = (
     flow.bare_stop,
     flow.input_threads,
     flow.wrong_returns,
+    motion.still_moving,
+    motion.routine_missing,
 )
 
 

@@ -228,6 +228,21 @@ MEANING: tuple[Rule, ...] = (
         good="#A\nJP #A\n#LIMSWI\nRE",
     ),
     Rule(
+        name="still-moving",
+        severity="warning",
+        message="{text} is refused while axis {axes} moves: wait before it, for example with AM.",
+        bad="#A\nPR 1000\nBG X\nPR 5000\nEN",
+        good="#A\nPR 1000\nBG X\nAM X\nPR 5000\nEN",
+        code=7,
+    ),
+    Rule(
+        name="routine-missing",
+        severity="warning",
+        message="{text} calls #{label}, and the program has no such label.",
+        bad="#A\nII 1\nJP #A\n#INIT\nRI",
+        good="#A\nII 1\nJP #A\n#ININT\nRI",
+    ),
+    Rule(
         name="never-reached",
         severity="warning",
         message="This is never reached: the statement before it never goes on, and there is no label.",

@@ -8,13 +8,16 @@ import pytest
 
 from codegen.models import MODELS
 from codegen.twoletter.check import check
+from codegen.twoletter.checks.rules import SYNTAX_RULES
 from codegen.twoletter.commands import ALL, FUNCTIONS, KEYWORDS
 from codegen.twoletter.complete import complete, parameter_help
 from codegen.twoletter.evaluate import EvaluationError, compile_expression
 from codegen.twoletter.facts import expressions_of
 from codegen.twoletter.fixed import HIGHEST, LOWEST, ONE
 from codegen.twoletter.format import format_source, format_statement
+from codegen.twoletter.nodes import Broken, Foreign
 from codegen.twoletter.parse import parse, parse_line
+from codegen.twoletter.problems import ERROR_TEXTS
 from tests.long import count
 
 SEED = 20_240_501
@@ -95,6 +98,8 @@ def test_nothing_is_raised_whatever_the_text() -> None:
             evaluate_all(line.text, source)
             for statement in line.statements:
                 format_statement(statement, compact=True)
+                if isinstance(statement, Broken | Foreign):
+                    assert statement.rule in SYNTAX_RULES and statement.code in ERROR_TEXTS
         if number % 4 == 0:
             check(text, source.choice(CONTROLLERS))
         if number % 16 == 0:
