@@ -16,7 +16,7 @@ import device
 ENDING_S: Final = 2.0
 
 
-class SimulatorFailed(Exception):
+class SimulatorFailed(OSError):
     """The simulator process did not come up, or has ended."""
 
 
@@ -56,9 +56,8 @@ class SimulatorProcess:
         return self._process.pid
 
     def stimulus(self, signal: str, value: float | str) -> None:
-        """Something happens to the machine at once; returns when it has been taken over."""
+        """Something happens to the machine within a slice (5 ms); does not wait for it."""
         self._ask(f"{signal},{value}", answer=False)
-        self._ask("ping", answer=True)
 
     def state(self) -> dict[str, Any]:
         """The state, as `run --json` prints it."""

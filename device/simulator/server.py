@@ -191,8 +191,6 @@ class ControlLines:
     def _one(self, simulation: Simulation, line: str, received: list[list[float]]) -> None:
         if line == "state":
             print(json.dumps({**simulation.state(), "received": received}), file=self._answers, flush=True)
-        elif line == "ping":
-            print("{}", file=self._answers, flush=True)
         elif line:
             signal, _, value = line.partition(",")
             try:

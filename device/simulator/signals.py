@@ -58,6 +58,7 @@ def _input(simulation: Simulation, number: int, level: bool) -> None:
     state = unit.state
     state.inputs = state.inputs | bit if level else state.inputs & ~bit
     unit.motion.set_input(number, level)
+    unit.changed = True
     for strand in state.strands():
         if strand.wait is not None and strand.wait.kind == "AI" and strand.wait.number == number:
             input_changed(unit, strand.wait)

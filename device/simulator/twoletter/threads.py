@@ -53,7 +53,7 @@ class Interpreter:
         if target < clock.tick + clock.period:
             clock.now = target
             return False
-        if clock.sync(target) or self._alarmed:
+        if clock.sync(clock.tick + clock.period if self._alarmed else target) or self._alarmed:
             clock.now = max(clock.now, clock.tick)
             if self._after_sample() or clock.tick + clock.period <= target:
                 return True
@@ -79,7 +79,8 @@ class Interpreter:
         """Brings ports and waits up to now, and gives the interpreter its next command."""
         unit = self.unit
         state, now = unit.state, unit.clock.now
-        self._alarmed |= unit.changed
+        if unit.changed:
+            self._alarmed, unit.changed = True, False
         if 0 <= state.reset_at <= now:
             unit.finish_reset()
         for uart, port in zip(unit.uarts, state.ports, strict=True):
@@ -285,8 +286,8 @@ class Interpreter:
             if wait is not None and wait.watches and all(motion.tripped(watch) for watch in wait.watches):
                 self.release(strand)
                 happened = True
-        if motion.take_events():
-            self._alarmed = True
+        motion.take_events()
+        self._alarmed = False
         if unit.routines and unit.state.threads[0].running:
             happened |= self._call_routines()
         return happened
@@ -315,7 +316,7 @@ class Interpreter:
         at_limit = any(motion.driving_into_limit(axis) for axis in unit.axes())
         beyond = any(motion.error_exceeded(axis) for axis in unit.axes())
         low = state.interrupt_armed and ~state.inputs & state.interrupt_mask
-        self._alarmed = at_limit or beyond or state.interrupt_armed
+        self._alarmed = at_limit or beyond or bool(low)
         for due, label in ((at_limit, "LIMSWI"), (beyond, "POSERR"), (low, "ININT")):
             if due and self._may_call(main, label):
                 if label == "ININT":

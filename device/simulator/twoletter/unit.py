@@ -168,14 +168,17 @@ class Unit:
 
     def reply(self, port: int, data: bytes) -> None:
         """Bytes that a port expects."""
-        self.uarts[port - 1].send(data, self.clock.now)
-        if self.uarts[port - 1].room() < 0:
+        uart = self.uarts[port - 1]
+        uart.run(self.clock.now)
+        uart.send(data, self.clock.now)
+        if uart.room() < 0:
             self.stalled, self.changed = port, True
 
     def unsolicited(self, port: int, text: str, *, ends: bool = False) -> None:
         """Bytes nobody asked for (dmc-1412-1414.txt l.1325): CW decides about bit 7 and a full FIFO."""
         settings, uart = self.state.settings, self.uarts[port - 1]
         data = text.encode("latin-1")
+        uart.run(self.clock.now)
         self.records.sent(self.clock.now, port, text)
         if ends:
             self.records.flush(port)
@@ -272,7 +275,7 @@ class Unit:
         if thread is not main or not handled:
             self.halt(thread.number)
         if handled:
-            self.call(main, "CMDERR", pc + 1 if thread is main else main.pc)
+            self.call(main, "CMDERR", min(pc + 1, len(self.code.ops) - 1) if thread is main else main.pc)
         else:
             self.unsolicited(1, f"?{line:03d} {source}\r\n")
 

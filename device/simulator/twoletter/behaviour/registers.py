@@ -53,6 +53,10 @@ def _sample_time(unit: Unit, axis: int, value: int) -> None:
     unit.set_sample_time(value // ONE)
 
 
+def _look(unit: Unit, axis: int, value: int) -> None:
+    unit.changed = True
+
+
 STORES: Final[dict[str, Store]] = {
     "PA": _mode("PA"),
     "PR": _mode("PR"),
@@ -82,7 +86,7 @@ STORES: Final[dict[str, Store]] = {
     "TM": Store(per_axis=False, apply=_sample_time),
     "LZ": Store(per_axis=False),
     "EO": Store(per_axis=False),
-    "TR": Store(per_axis=False, saved=False),
+    "TR": Store(per_axis=False, apply=_look, saved=False),
     "PF": Store(per_axis=False),
     "VF": Store(per_axis=False),
     "SA": Store(per_axis=False),
