@@ -27,6 +27,7 @@ from device.identify import Identity, identify, read_once
 from device.link import Link, Traffic
 from device.poll import Poller
 from device.ring import EMPTY, Row
+from device.simulator.process import SimulatorProcess
 from device.stop import NO_ANSWER_S, Stopping, StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
@@ -47,6 +48,7 @@ __all__ = [
     "NotAllowed",
     "Notice",
     "NoticeKind",
+    "OwnSimulator",
     "Prompt",
     "Refused",
     "Reply",
@@ -107,6 +109,44 @@ class Closeable(Protocol):
     def close(self) -> None: ...
 
 
+class OwnSimulator:
+    """A simulated controller in a process of its own, started by the link's thread when it is first needed."""
+
+    def __init__(self, model: str, plant: Path | None = None, eeprom: Path | None = None) -> None:
+        self._model, self._plant, self._eeprom = model, plant, eeprom
+        self._process: SimulatorProcess | None = None
+        self._closed = False
+
+    def open(self, line: LineSettings) -> Transport:
+        """The line to it; starts it, also again when it has ended."""
+        if self._closed:
+            raise OpenFailed("The simulator was closed.")
+        if self._process is not None:
+            try:
+                return open_transport(self._process.address, line)
+            except OpenFailed:
+                self._process.close()
+        try:
+            self._process = SimulatorProcess(self._model, plant=self._plant, eeprom=self._eeprom, baud=line.baud)
+        except OSError as reason:
+            raise OpenFailed(f"The simulator did not start ({reason}).") from reason
+        return open_transport(self._process.address, line)
+
+    def stimulus(self, signal: str, value: float | str) -> None:
+        """Something happens to the simulated machine (an input, a limit switch, a push)."""
+        if self._process is not None:
+            self._process.stimulus(signal, value)
+
+    def state(self) -> dict[str, Any]:
+        """What the simulation knows of itself; empty before it runs."""
+        return self._process.state() if self._process is not None else {}
+
+    def close(self) -> None:
+        self._closed = True
+        if self._process is not None:
+            self._process.close()
+
+
 class Controller:
     """One controller. Every call returns at once; answers come in futures, happenings in `notices`."""
 
@@ -144,6 +184,7 @@ class Controller:
         self.motion = Motion(self)
         self.io = Io(self)
         self._expected_model = model
+        self.simulator = own if isinstance(own, OwnSimulator) else None
         self._own = own
         self._notices: deque[Notice] = deque(maxlen=2000)
         self._document: str | None = None
@@ -162,21 +203,20 @@ class Controller:
 
     @classmethod
     def connect(
-        cls, address: str, line: LineSettings | None = None, *, kind: Kind | None = None, **more: Any
+        cls,
+        address: str,
+        line: LineSettings | None = None,
+        *,
+        kind: Kind | None = None,
+        plant: Path | None = None,
+        eeprom: Path | None = None,
+        **more: Any,
     ) -> Controller:
         """A machine at a serial device or `socket://…`; `simulator:MODEL` starts a simulated controller of our own."""
         if address == "simulator" or address.startswith("simulator:"):
-            from device.simulator.process import SimulatorProcess
-
-            process = SimulatorProcess(address.partition(":")[2] or "ssc4")
+            own = OwnSimulator(address.partition(":")[2] or "ssc4", plant, eeprom)
             settings = line or LineSettings(baud=None)
-            return cls(
-                lambda: open_transport(process.address, settings),
-                kind=Kind.SIMULATOR,
-                line=settings,
-                own=process,
-                **more,
-            )
+            return cls(lambda: own.open(settings), kind=Kind.SIMULATOR, line=settings, own=own, **more)
         settings = line or LineSettings()
         return cls(lambda: open_transport(address, settings), kind=kind or Kind.MACHINE, line=settings, **more)
 
@@ -306,9 +346,9 @@ class Controller:
         return self.run(self._answer_steps(text), Priority.USER, "user")
 
     def _answer_steps(self, text: str) -> Steps[None]:
+        self.link.clear_rest()
         yield Send(data_line(text), answers_prompt=True)
         self.waiting.answered()
-        self.link.wire.take_rest()
         self.door.question = self.waiting.question
 
     @property

@@ -66,7 +66,8 @@ class Listing:
 
     def after(self, lines: tuple[int, ...]) -> frozenset[int]:
         """Where thread 0 may be once one of these questions is answered."""
-        return frozenset(after for line in lines if line < len(self._lines) for after in (line, *self._next[line]))
+        doubled = {line for line in lines if [q.line for q in self.questions].count(line) > 1}
+        return frozenset(doubled | {after for line in lines if line < len(self._lines) for after in self._next[line]})
 
     def entry(self, target: str) -> frozenset[int]:
         """The line an Execute starts at: a label with `#`, a number, or the first line."""
@@ -125,9 +126,11 @@ class Listing:
     def _returns(self) -> Iterator[int]:
         """Lines after a subroutine call: where an end may go on."""
         for number, line in enumerate(self._lines):
-            if any(isinstance(s, nodes.Command) and s.name == "JS" for s in line.statements):
-                yield number
+            calls = [isinstance(s, nodes.Command) and s.name == "JS" for s in line.statements]
+            if any(calls):
                 yield number + 1
+                if any(calls[:-1]):
+                    yield number
 
 
 def _port_two(statement: nodes.Command) -> bool:
@@ -160,6 +163,7 @@ class Waiting:
         self.position: frozenset[int] | None = None  # lines of running threads; None: not known
         self.prompt: Prompt | None = None
         self.data_mode = False
+        self.entry = ""  # DL, QD or ED: the controller takes lines for a program or an array
         self.free = False  # the person said that nothing is waiting
 
     @property
@@ -168,6 +172,8 @@ class Waiting:
         if self.prompt is not None:
             shown = f" “{self.prompt.text.strip()}”" if self.prompt.text.strip() else ""
             return f"The program waits for an answer{shown}."
+        if self.entry:
+            return f"The controller takes lines after {self.entry}, up to a backslash."
         return "The controller's port is in data mode." if self.data_mode else ""
 
     @property
@@ -224,4 +230,4 @@ class Waiting:
 
     def restarted(self) -> None:
         """Reset, reconnected or stopped: nothing is known to wait."""
-        self.position, self.prompt, self.data_mode, self.free = None, None, False, False
+        self.position, self.prompt, self.data_mode, self.entry, self.free = None, None, False, "", False

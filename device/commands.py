@@ -18,10 +18,11 @@ from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, U
 if TYPE_CHECKING:
     from device.api import Controller
 
-ALONE = frozenset(["DL", "ED", "QD", "RS", "UL", "CI"])  # nothing can stand behind these on a line
+ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
 TELLING = frozenset(
     ["MG", "TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TC", "TI", "SC", "RL", "LS", "LL", "LV", "LA", "QU"]
 )
+ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}
 USUAL_S = 1.0
@@ -50,7 +51,11 @@ def typed(controller: Controller, command: str, timeout_s: float | None) -> Step
         return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
     command = command.rstrip("\r\n")
     data_line(command)
+    if controller.waiting.entry:
+        return (yield from _entered(controller, command))
     found = names(command)
+    if found and found[-1] in ENTRY:
+        return (yield from _enter(controller, command, found[-1]))
     if any(name == "XQ" for name in found):
         yield from _know_program(controller)
     limit = timeout_s or max([SLOW.get(name, USUAL_S) for name in found], default=USUAL_S)
@@ -62,6 +67,29 @@ def typed(controller: Controller, command: str, timeout_s: float | None) -> Step
     count = max(len(parse_line(command).statements), 1)
     answer = yield Send(data_line(command), Prompts(count), limit, refusal_s=0.05)
     return (yield from _reply(controller, answer, command, limit))
+
+
+def _enter(controller: Controller, command: str, name: str) -> Steps[Reply]:
+    """DL, QD and ED answer nothing but a refusal; from here on lines belong to them, and reading rests."""
+    answer = yield Send(data_line(command), Prompts(1), 0.2, hold=True)
+    if answer.kind is Kind.REFUSED:
+        return (yield from _reply(controller, answer, command, USUAL_S))
+    controller.waiting.entry = name
+    controller.door.question = controller.waiting.question
+    return Reply(answer.text, True, False)
+
+
+def _entered(controller: Controller, line: str) -> Steps[Reply]:
+    """A line of a program or an array typed by hand; a backslash ends it."""
+    if "\\" not in line:
+        yield Send(data_line(line), answers_prompt=True)
+        return Reply("", True, False)
+    end = b"\x11" if controller.waiting.entry == "ED" else b"\\"
+    rest = line.partition("\\")[0].encode("ascii")
+    answer = yield Send(rest + end, Prompts(1), USUAL_S, answers_prompt=True)
+    controller.waiting.entry = ""
+    controller.door.question = controller.waiting.question
+    return (yield from _reply(controller, answer, line, USUAL_S))
 
 
 def _plain(command: str, found: list[str], controller: Controller) -> bool:

@@ -353,6 +353,11 @@ class Link:
         if not self._out and task is not None and isinstance(task.step, Send):
             self._deadline = self._clear_at + task.step.timeout_s
 
+    def clear_rest(self) -> None:
+        """The text that stands there is done with (its question was answered)."""
+        self.wire.take_rest()
+        self._told_rest = ""
+
     def note(self, direction: str, text: str, source: str) -> None:
         """One line for the terminal's traffic."""
         self.record.append(Traffic(next(self._numbers), self._clock(), direction, text, source))

@@ -9,13 +9,14 @@
 | second press, or not still in time      | the same with `AB`           | the same                  |
 
 `11` is XON and leaves the line editor, `1B` leaves operator data mode, `5C` (backslash) ends DL and QD. The first
-`ST` may be taken as the answer of an IN; the second acts.
+`ST` may be taken as the answer of an IN; the second acts. (A program that does nothing but ask for a text again and
+again takes every line: STOP then says NOT CONFIRMED.)
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 
 from device.tasks import Send, Steps, Wait
@@ -58,7 +59,7 @@ class Stopping:
     nonces: Iterator[str]
     show: Callable[[StopState], None]
     abort: bool = False
-    heard: float = field(default=0.0)
+    heard: float = 0.0
 
     def steps(self) -> Steps[bool]:
         """Ends with whether stillness was proved."""
@@ -124,7 +125,9 @@ class Stopping:
         yield line
 
     def _patience(self) -> float:
-        return max(0.05, min(0.25, NO_ANSWER_S - (self.clock() - self.heard)))
+        """How long to wait for an answer: never past the moment that is NOT CONFIRMED, longer after it."""
+        silent = self.clock() - self.heard
+        return min(0.25, NO_ANSWER_S - silent) if silent < NO_ANSWER_S - 0.02 else 0.6
 
     def _answered(self) -> None:
         self.heard = self.clock()

@@ -254,10 +254,10 @@ class Wire:
         self._owe_one()
         text, certain = _without_prompts(window, expected.prompts)
         if text and not (expected.data and certain):
-            self._add_text(text.replace("\n", "\r\n") + "\r\n")
+            self._add_text(text)
         if not expected.data:
             return Answer(Kind.ACCEPTED)
-        return Answer(Kind.ACCEPTED, text=text, certain=certain)
+        return Answer(Kind.ACCEPTED, text=text.replace("\r\n", "\n").rstrip("\n"), certain=certain)
 
     def _prompts(self, count: int) -> Answer | None:
         window = self._window(len(self._buffer))
@@ -367,7 +367,7 @@ def _without_prompts(window: str, prompts: int) -> tuple[str, bool]:
     exact = re.fullmatch("((?:[^\r\n:?]*\r\n)*):" * prompts, window) if prompts < 40 else None
     if exact is not None:
         data = "".join(group for group in exact.groups() if group)
-        return data.replace("\r\n", "\n").rstrip("\n"), True
+        return data, True
     for _ in range(prompts):
         if window.endswith(":"):
             window = window[:-1]
@@ -375,4 +375,4 @@ def _without_prompts(window: str, prompts: int) -> tuple[str, bool]:
             window = window[: place + 1] + window[place + 2 :]
         else:
             window = window.replace(":", "", 1)
-    return window.replace("\r\n", "\n").rstrip("\n"), False
+    return window, False

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from hypothesis import given
 from hypothesis import strategies as st
 
-from device.wire import Frame, Kind, Proof, Prompts, Revision, Shape, Upload, Wire, framed, nonces
+from device.wire import Frame, Kind, Prompts, Proof, Revision, Shape, Upload, Wire, framed, nonces
 
 TEXT = st.text(alphabet=":?\r\n 0123456789-.ABab\"'", max_size=40).map(lambda text: text.encode("ascii"))
 SHAPES = (Shape(10, 0), Shape(8, 0), Shape(2, 4), Shape(3, 0), Shape(10, 4))
@@ -13,7 +15,7 @@ VALUE = st.integers(-999, 999)
 
 
 def as_sent(value: int, shape: Shape) -> bytes:
-    """A number as the controller prints it with a local format: sign column, leading zeros (dmc-1412-1414.txt l.3676)."""
+    """A number as a local format prints it: sign column, leading zeros (dmc-1412-1414.txt l.3676)."""
     whole = min(abs(value), 10**shape.digits - 1)
     text = f"{'-' if value < 0 else ' '}{whole:0{shape.digits}d}"
     return (text + ("." + "0" * shape.decimals if shape.decimals else "")).encode()
@@ -28,7 +30,7 @@ def fed(wire: Wire, data: bytes, cuts: list[int]) -> list[object]:
     """Feeds the bytes cut at these places; all answers that came out."""
     answers: list[object] = []
     places = sorted({cut % (len(data) + 1) for cut in cuts} | {0, len(data)})
-    for start, end in zip(places, places[1:], strict=False):
+    for start, end in pairwise(places):
         wire.feed(data[start:end])
         answer = wire.answer()
         if answer is not None:

@@ -1,0 +1,159 @@
+"""STOP from every state of the line, with nothing moving, a long move and a jog (safety.md, 1)."""
+
+from __future__ import annotations
+
+import pytest
+
+from device.api import StopState
+from device.stop import stop_bytes
+from tests.device.bench import Bench
+
+PROGRAM = """#A
+MG "RUN:?"
+WT 20
+JP #A
+#I
+IN "HOW MANY",N
+JP #I
+#S
+IN "NAME",N{S6};WT 5
+JP #S
+#T
+IN "NAME",N{S6}
+JP #T"""
+TYPED = {  # what the link itself has sent
+    "download": ["DL", "#NEW", "PR 100"],
+    "array download": ["DM Q[10]", "QD Q[],0,9", "1"],
+    "editor": ["ED 1"],
+    "running program": ["XQ #A"],
+    "waiting for a number": ["XQ #I"],
+    "waiting for a text": ["XQ #S"],
+    "data mode": ["CI ,,1"],
+}
+ON_THE_LINE = {  # what the line carries behind the link's back
+    "command mode": b"",
+    "half-typed line": b"PR 100",
+    "half-typed begin": b"BG",
+    "XOFF": b"\x13",
+    "port busy": b"WT 2000\r",
+}
+LINE_STATES = (*TYPED, *ON_THE_LINE)
+MOTION = {"still": "", "move": "PR 4000000;SP 100000;BG X", "jog": "JG 50000;BG X"}
+
+
+def set_up(motion: str) -> Bench:
+    bench = Bench("ssc4").ready()
+    bench.result(bench.controller.download(PROGRAM).future)
+    bench.ask("SH")
+    if MOTION[motion]:
+        bench.ask(MOTION[motion])
+    return bench
+
+
+def put_into(bench: Bench, state: str) -> None:
+    for line in TYPED.get(state, []):
+        bench.result(bench.controller.ask(line))
+    bench.simulation.receive(1, ON_THE_LINE.get(state, b""))
+    bench.simulation.advance(1_024_000 // 10)
+
+
+@pytest.mark.parametrize("motion", MOTION)
+@pytest.mark.parametrize("state", LINE_STATES)
+def test_everything_stands_still_and_no_stop_is_in_the_program(state: str, motion: str) -> None:
+    bench = set_up(motion)
+    put_into(bench, state)
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 8.0)
+    assert bench.still()
+    held = bench.result(bench.controller.upload().future)
+    assert "ST" not in [part.strip() for line in held.splitlines() for part in line.split(";")]
+
+
+@pytest.mark.parametrize("motion", MOTION)
+def test_from_a_known_command_mode_only_the_plain_stop_is_sent(motion: str) -> None:
+    bench = set_up(motion)
+    bench.run(0.3)
+    bench.sent.clear()
+    bench.controller.stop()
+    bench.run(0.02)
+    assert bytes(bench.sent).startswith(b"ST\r")
+
+
+def test_the_table_of_bytes() -> None:
+    assert stop_bytes(True) == b"ST\r"
+    assert stop_bytes(False) == b"\x11\x1b\x5cST\rST\r"
+    assert stop_bytes(True, chained=True) == b"!ST\r"
+    assert stop_bytes(False, abort=True) == b"\x11\x1b\x5cAB\rAB\r"
+
+
+def test_queued_commands_fail_as_stopped_and_never_leave() -> None:
+    bench = set_up("jog")
+    queued = [bench.controller.ask(f"SP {speed}") for speed in (1000, 2000, 3000)]
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
+    for future in queued:
+        with pytest.raises(Exception, match="STOP was pressed"):
+            future.result(0)
+    assert b"SP 2000" not in bench.sent
+
+
+def test_a_second_press_aborts() -> None:
+    bench = set_up("jog")
+    bench.ask("DC 1024")
+    bench.controller.stop()
+    bench.run(0.3)
+    assert not bench.still()
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 2.0)
+    assert bench.still()
+    assert b"AB\r" in bench.sent
+
+
+def test_no_stillness_within_the_stopping_time_aborts() -> None:
+    bench = set_up("jog")
+    bench.ask("DC 1024")
+    bench.controller.stopping_time_s = 0.5
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 3.0)
+    assert b"AB\r" in bench.sent
+
+
+@pytest.mark.parametrize("state", ["command mode", "running program", "XOFF"])
+def test_without_an_answer_it_is_not_confirmed_within_half_a_second(state: str) -> None:
+    bench = set_up("jog")
+    put_into(bench, state)
+    bench.loopback.unplugged = True
+    start = bench.loopback.clock()
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.NOT_CONFIRMED, 1.0)
+    assert bench.loopback.clock() - start <= 0.51
+
+
+def test_during_a_burn_it_is_not_confirmed_and_confirmed_afterwards() -> None:
+    bench = set_up("still")
+    bench.simulation.receive(1, b"BP\r")
+    bench.simulation.advance(1_024_000 // 20)
+    start = bench.loopback.clock()
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is not StopState.STOPPING, 1.0)
+    assert bench.controller.stop_state is StopState.NOT_CONFIRMED
+    assert bench.loopback.clock() - start <= 0.51
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 15.0)
+    assert bench.still()
+
+
+def test_without_a_link_it_never_claims_anything() -> None:
+    bench = Bench("ssc4")
+    bench.controller.stop()
+    assert bench.controller.stop_state is StopState.NOT_CONFIRMED
+
+
+def test_a_program_that_takes_every_line_as_an_answer_is_not_called_stopped() -> None:
+    """`IN` of a text in a tight loop is waiting again before a second ST is complete at 19200 baud."""
+    bench = set_up("still")
+    bench.result(bench.controller.ask("XQ #T"))
+    bench.run(0.2)
+    bench.controller.stop()
+    bench.run(1.0)
+    assert not bench.still()
+    assert bench.controller.stop_state is StopState.NOT_CONFIRMED
