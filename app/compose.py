@@ -135,7 +135,7 @@ class Studio(QObject):
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)
-        for said in (self.files.said, self.run.said, self.talk.said, self.session.autosave_failed):
+        for said in (self.files.said, self.run.said, self.start.said, self.talk.said, self.session.autosave_failed):
             said.connect(self.desk.say)
         for complaint in self.settings.complaints:
             self.desk.say(complaint)

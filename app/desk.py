@@ -129,18 +129,15 @@ class Desk(QObject):
         self.upload.save_wanted.connect(self.export_wanted)
         self.upload.show()
 
-    def offer_recovery(self) -> None:
-        """Work that a crashed session left behind."""
-        for left in self._session.recoverable()[:1]:
+    def offer_recovery(self) -> bool:
+        """Work that a crashed session left behind; False when there is none."""
+        for left in self._session.recoverable():
             name = Path(left.original).name if left.original else left.document.program.name or "a new program"
-            words = (
-                f"Unsaved work on {name} from {left.when:%d.%m.%Y %H:%M} was kept when the program ended unexpectedly."
-            )
-            answers = (
-                ("Recover it", partial(self._session.recover, left)),
-                ("Throw it away", partial(self._session.forget, left)),
-            )
-            self.ask("Recover unsaved work?", words, answers, "file")
+            words = f"Unsaved work on {name} ({left.when:%d.%m.%Y %H:%M}) was kept when the program ended unexpectedly."
+            recover, forget = partial(self._session.recover, left), partial(self._session.forget, left)
+            self.ask("Recover unsaved work?", words, (("Recover it", recover), ("Throw it away", forget)), "file")
+            return True
+        return False
 
     def fill_recent(self, files: Files) -> None:
         """The menu of programs opened last."""

@@ -22,6 +22,7 @@ class Start(QObject):
 
     setup_wanted = Signal()
     exit_wanted = Signal()
+    said = Signal(str)
 
     def __init__(
         self,
@@ -44,12 +45,18 @@ class Start(QObject):
 
     def look(self) -> None:
         """Shows the welcome window and looks for a controller."""
-        self._show().show_looking("Listing the ports of this computer…")
+        self.welcome_window().show_looking("Listing the ports of this computer…")
         self._search.start(self._known(), self.line())
 
-    def greet(self) -> None:
-        """Shows the welcome window without looking for anything."""
-        self._show().show_nothing("Nothing was looked for (see the settings). What do you want to work with?")
+    def begin(self) -> None:
+        """Looks on the ports known from before; where none was ever used, the simulator is there at once."""
+        known = [each for each in self._known() if each.used_before]
+        if known and self._settings.get("look_at_start"):
+            self.welcome_window().show_looking("Listing the ports of this computer…")
+            self._search.start(known, self.line())
+            return
+        self.use_simulator()
+        self.said.emit("This is the simulator. Controller > Connect looks for a real controller.")
 
     def show_serial(self) -> None:
         """Serial communication setup."""
@@ -136,12 +143,13 @@ class Start(QObject):
             self.welcome.show_looking(sentence)
 
     def _question(self, candidate: Candidate) -> None:
-        self._show().show_question(candidate.device, candidate.words)
+        self.welcome_window().show_question(candidate.device, candidate.words)
 
     def _nothing(self, sentence: str) -> None:
-        self._show().show_nothing(sentence)
+        self.welcome_window().show_nothing(sentence)
 
-    def _show(self) -> Welcome:
+    def welcome_window(self) -> Welcome:
+        """The welcome window, made when it is first needed."""
         if self.welcome is None:
             self.welcome = Welcome(self._window)
             self.welcome.way.connect(self._way)

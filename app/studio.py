@@ -9,10 +9,13 @@ from pathlib import Path
 from PySide6.QtCore import QLocale, QTimer
 from PySide6.QtWidgets import QApplication
 
+import resources
 from app.compose import Studio
 from app.connection import connector
 from app.search import Candidate
 from app.settings import Settings, data_folder, settings_path
+
+SAMPLE = "examples/wire-cutter.tlp"
 
 
 def run_studio(file: Path | None, connect: str = "ask") -> int:
@@ -39,15 +42,15 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
     studio.program.tree.setFocus()
     if file is not None:
         studio.files.open_path(file)
-    else:
-        studio.desk.offer_recovery()
+    elif not studio.desk.offer_recovery():
+        studio.session.open_copy(resources.path(SAMPLE))
     way, _, what = connect.partition(":")
     if way == "simulator":
         studio.connection.open_simulator(what or studio.model())
     elif way == "port":
         studio.start.open_port(what)
     elif way == "ask":
-        studio.start.look() if studio.settings.get("look_at_start") else studio.start.greet()
+        studio.start.begin()
 
 
 def list_ports() -> list[Candidate]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
-    QFormLayout,
+    QGridLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -100,6 +100,7 @@ class SerialSetup(QDialog):
         empty = "No serial port found: plug the cable in and list again, or type its name"
         line = self.port.lineEdit()
         if line is not None:
+            line.setCursorPosition(0)
             line.setPlaceholderText("Device name or socket://host:port" if ports else empty)
         self._judge()
 
@@ -114,6 +115,9 @@ class SerialSetup(QDialog):
         for box, value in (*pairs, (self.parity, choice.parity), (self.handshake, choice.handshake)):
             box.setCurrentIndex(max(0, box.findData(value)))
         self.echo.setChecked(choice.echo)
+        line = self.port.lineEdit()
+        if line is not None:
+            line.setCursorPosition(0)
         self._judge()
 
     def _fill(self) -> None:
@@ -129,18 +133,20 @@ class SerialSetup(QDialog):
             self.handshake.addItem(word, value)
 
     def _lay_out(self) -> None:
-        form = QFormLayout()
+        form = QGridLayout()
         form.setHorizontalSpacing(16)
         form.setVerticalSpacing(8)
-        form.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         rows = (
             ("Port", self.port), ("Baud rate", self.baud), ("Data bits", self.bits), ("Stop bits", self.stop_bits),
             ("Parity", self.parity), ("Flow control", self.handshake), ("Echo", self.echo),
         )  # fmt: skip
-        for label, widget in rows:
+        for row, (label, widget) in enumerate(rows):
             widget.setAccessibleName(label)
-            form.addRow(label, widget)
+            form.addWidget(QLabel(label), row, 0)
+            form.addWidget(widget, row, 1)
+        form.setRowStretch(len(rows), 1)
         side = QVBoxLayout()
+        side.setSpacing(12)
         side.addWidget(QLabel("Set these switches on the controller:"))
         side.addWidget(self.switches)
         self.words.setWordWrap(True)

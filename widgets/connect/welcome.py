@@ -70,6 +70,8 @@ class Welcome(QDialog):
         )
         self._say("A new port", "", busy=False)
         self.ask.show()
+        self.adjustSize()
+        self.allow.setFocus()
 
     def show_nothing(self, sentence: str) -> None:
         """No controller answered: the reason, and what can be done."""
@@ -83,10 +85,12 @@ class Welcome(QDialog):
         self.again.setEnabled(not busy)
         self.again.setToolTip("Still looking" if busy else "Looks for a controller once more")
         self.ask.hide()
+        self.adjustSize()
 
     def _lay_out(self) -> None:
         self.heading.setProperty("role", "title")
         self.sentence.setWordWrap(True)
+        self.question.setMinimumHeight(80)
         self.busy.setRange(0, 0)
         self.busy.setTextVisible(False)
         self.busy.setMaximumHeight(8)
@@ -104,6 +108,7 @@ class Welcome(QDialog):
         danger.setWordWrap(True)
         danger.setProperty("role", "note")
         column.addWidget(danger)
+        column.addStretch(1)
         foot = QHBoxLayout()
         self.again.setIcon(icon("refresh"))
         self.again.clicked.connect(lambda: self.way.emit("again"))
@@ -112,7 +117,7 @@ class Welcome(QDialog):
         foot.addStretch(1)
         foot.addWidget(self.exit)
         column.addLayout(foot)
-        self.setMinimumWidth(560)
+        self.setMinimumWidth(608)
 
     def _question(self) -> QFrame:
         self.ask.setProperty("role", "card")
@@ -141,7 +146,6 @@ class Welcome(QDialog):
         picture.setPixmap(icon(way.icon, "accent").pixmap(QSize(28, 28), self.devicePixelRatioF()))
         title, words = QLabel(way.title), QLabel(way.words)
         words.setProperty("role", "quiet")
-        words.setWordWrap(True)
         font = title.font()
         font.setBold(True)
         title.setFont(font)

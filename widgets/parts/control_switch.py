@@ -36,6 +36,7 @@ class ControlSwitch(QWidget):
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
             button.setCheckable(True)
             button.setProperty("role", "control")
+            button.setObjectName("switch")
             button.setAccessibleName(text)
             button.setToolTip(help_text)
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

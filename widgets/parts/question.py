@@ -63,6 +63,8 @@ class Question(QDialog):
         column.setSpacing(24)
         column.addLayout(top)
         column.addLayout(foot)
+        if answers:
+            self.buttons[answers[0][0]].setFocus()
 
     def _answer(self, call: Callable[[], None]) -> None:
         self.accept()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
 from device.api import Kind, StopState
@@ -57,7 +57,7 @@ class StopButton(QAbstractButton):
         self.update()
 
     def sizeHint(self) -> QSize:
-        return QSize(256, 72)
+        return QSize(272, 72)
 
     def minimumSizeHint(self) -> QSize:
         return self.sizeHint()
@@ -109,9 +109,13 @@ class StopButton(QAbstractButton):
             self._paint_key(painter, head)
         else:
             painter.drawText(head, Qt.AlignmentFlag.AlignCenter, headline)
+        line = inner.adjusted(8, 34, -8, -3)
+        font.setBold(self._state is StopState.NOT_CONFIRMED)
         font.setPointSizeF(look().body_points)
+        while QFontMetricsF(font).horizontalAdvance(below) > line.width() and font.pointSizeF() > 7:
+            font.setPointSizeF(font.pointSizeF() - 0.5)
         painter.setFont(font)
-        painter.drawText(inner.adjusted(8, 34, -8, -3), Qt.AlignmentFlag.AlignCenter, below)
+        painter.drawText(line, Qt.AlignmentFlag.AlignCenter, below)
 
     def _paint_key(self, painter: QPainter, head: QRectF) -> None:
         """The key F12, drawn as a key."""

@@ -185,7 +185,8 @@ class SetupPage(QDialog):
         wanted = self.setup
         model = MODELS[wanted.model]
         self.facts.setText(
-            f"{len(model.axes)} axes ({' '.join(model.axes)}), {model.inputs} inputs, {model.outputs} outputs, "
+            f"{'Axis' if len(model.axes) == 1 else 'Axes'} {' '.join(model.axes)}, {model.inputs} inputs, "
+            f"{model.outputs} outputs, "
             f"{model.lines} lines of {model.columns} characters, {model.threads} threads"
             if model.family != "smartmotor"
             else "1 axis, speaks its own language"
@@ -250,9 +251,10 @@ class SetupPage(QDialog):
         line = QHBoxLayout()
         line.addWidget(QLabel("Controller model"))
         line.addWidget(self.model)
-        line.addWidget(self.facts, 1)
+        line.addStretch(1)
         column.addLayout(line)
-        heading = QLabel("Unit and counts in one unit (leadscrew turns per unit × encoder counts per turn)")
+        column.addWidget(self.facts)
+        heading = QLabel("Unit of each axis, and encoder counts (or steps) in one unit")
         heading.setProperty("role", "heading")
         column.addWidget(heading)
         for row in self.rows.values():

@@ -93,7 +93,7 @@ class SimulatorPanel(Panel):
         column = QVBoxLayout(inside)
         column.setContentsMargins(0, 0, 8, 0)
         column.setSpacing(8)
-        self._heading(column, "Inputs (high when ticked; nothing connected is high)")
+        self._heading(column, "Inputs (ticked: high, as with nothing connected)")
         column.addLayout(self._input_grid(inputs, names))
         self._heading(column, "Switches (ticked: pressed)")
         column.addLayout(self._switch_grid(letters))
@@ -107,11 +107,13 @@ class SimulatorPanel(Panel):
 
     def _heading(self, column: QVBoxLayout, text: str) -> None:
         label = QLabel(text)
+        label.setWordWrap(True)
         label.setProperty("role", "heading")
         column.addWidget(label)
 
     def _input_grid(self, count: int, names: tuple[str, ...]) -> QGridLayout:
         grid = QGridLayout()
+        grid.setVerticalSpacing(0)
         self.inputs = {}
         for number in range(1, count + 1):
             name = names[number - 1] if number <= len(names) else ""
@@ -126,6 +128,7 @@ class SimulatorPanel(Panel):
 
     def _switch_grid(self, letters: str) -> QGridLayout:
         grid = QGridLayout()
+        grid.setVerticalSpacing(0)
         self.switches = {}
         for column, letter in enumerate(letters):
             for row, (signal, words) in enumerate(SWITCHES):
@@ -144,6 +147,8 @@ class SimulatorPanel(Panel):
             box.setRange(-10.0, 10.0)
             box.setSingleStep(0.1)
             box.setSuffix(" V")
+            box.setFixedWidth(88)
+            slider.setMinimumWidth(72)
             box.setAccessibleName(f"Analog input {number} in volts")
             slider.setRange(-1000, 1000)
             slider.setAccessibleName(f"Analog input {number}")
