@@ -28,6 +28,8 @@ def ends(statement: Statement) -> bool:
     """Whether the program never goes on behind this statement."""
     if not isinstance(statement, Command):
         return False
+    if statement.name == "HX":
+        return not statement.arguments  # halts every thread
     return statement.name in RETURNS or (statement.name == "JP" and len(statement.arguments) == 1)
 
 

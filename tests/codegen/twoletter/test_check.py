@@ -161,13 +161,33 @@ def test_models_decide(source: str, name: str, rules: list[str]) -> None:
 MANUAL = {
     "multitasking l.2644": (
         "#TASK1\nAT0\nCB1\n#LOOP1\nAT 10\nSB1\nAT -40\nCB1\nJP #LOOP1\n"
-        "#TASK2\nXQ #TASK1,1\n#LOOP2\nPR 1000\nBGX\nAMX\nWT 10\nJP #LOOP2,@IN[2]=1\nHX\nEN",
+        "#TASK2\nXQ #TASK1,1\n#LOOP2\nPR 1000\nBGX\nAMX\nWT 10\nJP #LOOP2,@IN[2]=1\nHX",
         [],
     ),
     "trip l.2803": (
         "#TRIP\nJG 50000\nBG;n=0\n#REPEAT\nAR 10000\nTP\nSB1\nWT50\nCB1\nn=n+1\nJP #REPEAT,n<5\nST\nEN",
         [],
     ),
+    "terminal l.3586": (
+        "#AUTO\nSPEEDX=10000\nCI ,2\nJG SPEEDX\nBGX\n#PRINT\n"
+        'MG{P2}"TO CHANGE SPEEDS"\nMG{P2}"TYPE X"\nMG{P2}"TYPE S TO STOP"\n#JOGLOOP\nJG SPEEDX\nJP #JOGLOOP\nEN\n'
+        '#COMINT\nCI,0\nJP #A,P2CH="X"\nJP #B,P2CH="S"\nZS1;CI,2;JP#JOGLOOP\n#A;JS#NUM\nSPEEDX=VAL\n'
+        'ZS1;CI,2;JP#PRINT\n#B;ST;AMX;CI,-1\nMG{P2}"THE END"\nZS;EN,1\n'
+        '#NUM\nMG "ENTER",P2CH{S},"AXIS SPEED"{N}\n#NUMLOOP;CI,-1\n#NMLP\nJP #NMLP,P2CD<2\nJP #ERROR,P2CD=2\n'
+        'VAL=P2NM\nEN\n#ERROR;CI,-1\nMG "INVALID-TRY AGAIN"\nJP #NMLP\nEN',
+        [],
+    ),
+    "cam l.1898": (
+        "#SETUP\nEM 1000,2000\nEP 20,0\nN = 0\n#LOOP\nP = N*3.6\nS = @SIN[P]*100\nX = N * 10 + S\nET[N] = X\n"
+        "N = N+1\nJP #LOOP, N<=100\nEN\n#RUN\nEB1\nPA500\nSP5000\nBGX\nAMX\nAI1\nEG 1000\nAI -1\nEQ 1000\nEN",
+        [],
+    ),
+    "dual loop l.2266": (
+        "#DUALOOP\nCE 0\nDE0\nPR 40000\nBG\n#Correct\nAM\nV1=10000-_DE\nV2=-_TE/4+V1\nJP#END,@ABS[V2]<2\n"
+        "PR V2*4\nBG\nJP#Correct\n#END\nEN",
+        [],
+    ),
+    "brushless l.781": ("#A\nSH\nPRX=-1*(_BZX)\nBG\nAM\nBZX=-1\nEN", []),
     "command error l.3069": (
         '#BEGIN\nIN "ENTER SPEED", SPEED\nJG SPEED;BG;\nJP #BEGIN\nEN\n#CMDERR\nJP#DONE,_ED<>2\nJP#DONE,_TC<>6\n'
         'MG "SPEED TOO HIGH"\nMG "TRY AGAIN"\nZS1\nJP #BEGIN\n#DONE\nZS0\nEN',
