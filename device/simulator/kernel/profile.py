@@ -210,6 +210,9 @@ def advance_profile(A: State) -> None:
         advance_jog(A)
     elif mode == MODE_STOPPING:
         advance_stop(A)
+    elif mode == MODE_SETTLING:
+        if abs(A[POSITION] - A[SMOOTHED]) < 0.5:
+            finish(A)
     elif mode == MODE_CONTOUR:
         A[POSITION] += A[CONTOUR_STEP]
         A[VELOCITY_V] = A[CONTOUR_STEP] * SAMPLES
@@ -221,13 +224,9 @@ def smooth(A: State) -> None:
     smoothing = 1.0 if mode in (MODE_CONTOUR, MODE_PATH) else A[SMOOTHING]
     if smoothing >= 1.0:
         A[SMOOTHED] = A[POSITION]
-        if A[MODE] == MODE_SETTLING:
-            finish(A)
     else:
         lag = A[POSITION] - A[SMOOTHED]
         A[SMOOTHED] += smoothing * lag
-        if A[MODE] == MODE_SETTLING and abs(A[POSITION] - A[SMOOTHED]) < 0.5:
-            finish(A)
     reference = float(floor(A[SMOOTHED] + 0.5))
     A[REFERENCE] = reference
     A[COMMANDED_LAST_V] = A[COMMANDED_V]
