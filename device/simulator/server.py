@@ -154,7 +154,7 @@ class Server:
             return 0
         if uart.baud is None:
             return UNPACED_BYTES
-        return max(1, int(2 * SLICE_S * uart.baud / CHARACTER_BITS)) - len(uart.line)
+        return 2 + int(2 * SLICE_S * uart.baud / CHARACTER_BITS) - len(uart.line)
 
     def received(self) -> list[list[float]]:
         """The last characters clocked in: moments of `time.monotonic()` and codes."""

@@ -1,0 +1,112 @@
+"""Served in real time: a process of its own on a socket or a pseudo-terminal, paced, controlled by lines."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from device.simulator.process import SimulatorFailed, SimulatorProcess
+
+pytestmark = pytest.mark.alone
+
+
+def connect(address: str) -> socket.socket:
+    host, _, port = address.removeprefix("socket://").rpartition(":")
+    client = socket.create_connection((host, int(port)), timeout=5)
+    client.settimeout(5)
+    return client
+
+
+def until(client: socket.socket, end: bytes) -> bytes:
+    data = b""
+    while not data.endswith(end):
+        data += client.recv(4096)
+    return data
+
+
+def test_commands_over_a_socket() -> None:
+    with SimulatorProcess("ssc4") as simulator:
+        client = connect(simulator.address)
+        client.sendall(b"PR 500;SP 20000;BGX;AMX\r")
+        assert until(client, b"::::") == b"::::"
+        client.sendall(b'MG "AT",_RPX{F4.0}\rTC1\r')
+        assert until(client, b"0\r\n:") == b"AT 0500\r\n:0\r\n:"
+        simulator.stimulus("in1", 0)
+        client.sendall(b"AI-1;TI\r")
+        assert until(client, b"\r\n:") == b":254\r\n:"
+        state = simulator.state()
+        assert state["axes"]["X"]["commanded"] == 500
+        assert state["received"][-1][1] == 13
+        assert abs(state["received"][-1][0] - time.monotonic()) < 5
+
+
+def test_a_second_client_takes_over() -> None:
+    with SimulatorProcess("ssc1") as simulator:
+        first = connect(simulator.address)
+        first.sendall(b"V1=5\r")
+        assert until(first, b":") == b":"
+        second = connect(simulator.address)
+        second.sendall(b"V1={F2.0}\r")
+        assert until(second, b":") == b" 05\r\n:"
+        assert first.recv(10) == b""
+
+
+def test_real_time_is_kept() -> None:
+    with SimulatorProcess("ssc1") as simulator:
+        client = connect(simulator.address)
+        client.sendall(b"\r")
+        until(client, b":")
+        began = time.monotonic()
+        client.sendall(b"WT 512\r")
+        until(client, b":")
+        assert time.monotonic() - began == pytest.approx(0.5, abs=0.05)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
+def test_a_paced_pseudo_terminal() -> None:
+    import os
+    import select
+
+    with SimulatorProcess("ssc4", pty=True, baud=1200) as simulator:
+        terminal = os.open(simulator.address, os.O_RDWR | os.O_NOCTTY)
+        os.write(terminal, b"TPX\r")
+        began, data = time.monotonic(), b""
+        while not data.endswith(b"\r\n:"):
+            assert select.select([terminal], [], [], 5)[0]
+            data += os.read(terminal, 100)
+        os.close(terminal)
+        assert data == b" 0000000000\r\n:"
+        assert time.monotonic() - began == pytest.approx(18 * 10 / 1200, abs=0.04)  # 4 characters there, 14 back
+
+
+def test_an_ended_process_is_said() -> None:
+    simulator = SimulatorProcess("ssc1")
+    simulator.close()
+    with pytest.raises(SimulatorFailed):
+        simulator.stimulus("in1", 0)
+
+
+def test_it_ends_when_its_owner_does() -> None:
+    command = [sys.executable, "-m", "device.simulator", "--control"]
+    root = Path(__file__).resolve().parents[3]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=root, text=True)
+    assert process.stdout is not None
+    assert process.stdout.readline().startswith("listening on 127.0.0.1:")
+    process.communicate(timeout=10)
+    assert process.returncode == 0
+
+
+@pytest.mark.parametrize("options", [["--controller", "ssc9"], ["--plant", "/no/such.toml"], ["--tcp", "256.0.0.1:0"]])
+def test_unusable_options_are_one_sentence(options: list[str]) -> None:
+    root = Path(__file__).resolve().parents[3]
+    result = subprocess.run(
+        [sys.executable, "-m", "device.simulator", *options], cwd=root, capture_output=True, text=True, timeout=60
+    )
+    assert result.returncode == 2
+    assert result.stderr.startswith("twoletter: ")
+    assert result.stderr.count("\n") == 1
