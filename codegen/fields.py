@@ -153,7 +153,7 @@ class Quantity(Field):
             low = -high
         if low <= number <= high:
             too_small = self.positive and context.setup.counts(self.dimension, context.axis, number) == 0
-            return f"{self.label} is too small for this axis" if too_small else None
+            return f"{self.label} is too small: it would be sent as 0" if too_small else None
         return f"{self.label} must lie between {_bound(low)} and {_bound(high)}{behind}"
 
     def text(self, value: str, context: Context) -> str:
