@@ -35,7 +35,7 @@ LONGEST_LINE = 512  # columns; the controllers take 80 or 40
 _START = re.compile(r"[ \t]*([A-Za-z][A-Za-z0-9]*)?[ \t]*")
 _HOST_COMMENT = re.compile(r"[ \t]*(?:(REM)(?![A-Za-z0-9])|('))(.*)\Z", re.DOTALL).match
 _STATEMENT = re.compile(r'(?:[^;"]|"[^"]*(?:"|\Z))*').match
-_AFTER_INDEX = re.compile(r"[ \t]*=").match
+_ASSIGNED = re.compile(r"[ \t]*=").match
 _AXIS_LETTERS = frozenset("XYZW")
 _BLANKS = " \t"
 
@@ -79,7 +79,7 @@ def _statement(text: str, position: int) -> tuple[Statement, int]:
     assert match is not None
     name, after = match[1] or "", match.end()
     following = text[after : after + 1]
-    if name[:2] == "NO" and (name == "NO" or following not in ("=", "[")):
+    if name[:2] == "NO" and (name == "NO" or not _is_assignment(text, after)):
         return _comment(text, match.start(1))
     if not name and following in ("", ";"):
         return Nothing(Span(after, after)), after
@@ -119,7 +119,7 @@ def _read(cursor: Cursor, name: str, following: str) -> Statement:
     if following == "[":
         if name == "ET":
             return _table_entry(cursor)
-        if _is_element_assignment(cursor):
+        if _is_assignment(cursor.text, cursor.end):
             return _assign(cursor, variable(cursor))
     if name in LATER and len(name) > 2:
         raise cursor.refuse("later-command", 1, foreign=True)
@@ -181,17 +181,19 @@ def _table_entry(cursor: Cursor) -> Command:
     return Command("ET", arguments, index=index, span=Span(start, _last(cursor, start)))
 
 
-def _is_element_assignment(cursor: Cursor) -> bool:
-    """Whether `]` and `=` follow the name and its bracket."""
+def _is_assignment(text: str, position: int) -> bool:
+    """Whether `=`, or a bracketed index and `=`, follow."""
     depth = 0
-    for column in range(cursor.end, _end_of_statement(cursor.text, cursor.end)):
-        sign = cursor.text[column]
+    for column in range(position, _end_of_statement(text, position)):
+        sign = text[column]
         if sign == "[":
             depth += 1
         elif sign == "]":
             depth -= 1
             if depth == 0:
-                return _AFTER_INDEX(cursor.text, column + 1) is not None
+                return _ASSIGNED(text, column + 1) is not None
+        elif depth == 0 and sign not in _BLANKS:
+            return sign == "="
     return False
 
 

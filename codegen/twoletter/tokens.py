@@ -99,7 +99,7 @@ class Cursor:
         """Refuse whatever is left over before the end of the statement."""
         if self.kind == END:
             return
-        if self.kind == STRING and not self.value.endswith('"'):
+        if self.kind == STRING and (len(self.value) < 2 or not self.value.endswith('"')):
             raise self.refuse("missing-quote", 52)
         rule, code, foreign = _LEFT_OVER.get(self.value, ("bad-argument", 4, False))
         raise self.refuse(rule, code, foreign)

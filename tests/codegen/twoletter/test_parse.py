@@ -121,6 +121,8 @@ def number(value: float) -> Number:
         ("NO A=5", Comment("NO", "A=5")),
         ("NO DON'T \"QUOTE", Comment("NO", "DON'T \"QUOTE")),
         ("NO=====", Comment("NO", "=====")),
+        ("NOPOS[1", Comment("NO", "POS[1")),
+        ("NOPOS[1]=5", Assign(Element("NOPOS", number(1)), number(5))),
         ("NOTE=5", Assign(Variable("NOTE"), number(5))),
         ("REM SIMPLE MOVE;BG", Comment("REM", "SIMPLE MOVE;BG")),  # l.2592
         ("'note", Comment("'", "note")),
@@ -154,6 +156,8 @@ def test_trees(text: str, tree: Statement) -> None:
         ("WT ?", "question-mark", 51),
         ("V1=?", "question-mark", 51),
         ('MG "HELLO', "missing-quote", 52),
+        ('XQ #A,1"', "missing-quote", 52),
+        ('XQ #A,1"\t', "missing-quote", 52),
         ('V1="ALPHABET"', "string-too-long", 52),
         ('MG "' + "A" * 73 + '"', "string-too-long", 52),
         ("MG V1{Q}", "bad-format", 53),
