@@ -39,6 +39,6 @@ def write(path: Path, text: str) -> None:
 
 def lifted(text: str, name: str, setup: Setup) -> Document:
     """Source as a document."""
-    from app.cli.lift import lift
+    from codegen.twoletter.lift import lift
 
     return lift(text, name, setup)

@@ -9,7 +9,7 @@ from concurrent.futures import Future
 from contextlib import contextmanager
 from typing import TypeVar
 
-from app.cli.failure import Failure
+from app.cli.failure import UNUSABLE, Failure
 from app.cli.sources import known_models
 from codegen.models import MODELS
 from device.api import Controller, Kind, State
@@ -17,7 +17,7 @@ from device.tasks import LinkError
 from device.transport import LineSettings
 
 Result = TypeVar("Result")
-CONNECT_S = 20.0
+CONNECT_S = 40.0  # a simulator may have to compile its sample loop first
 TICK_S = 0.02
 DEFAULT_BAUD = 9600
 
@@ -59,12 +59,12 @@ def wait_for(controller: Controller, port: str) -> None:
         time.sleep(TICK_S)
 
 
-def result_of(future: Future[Result]) -> Result:
+def result_of(future: Future[Result], port: str, code: int = UNUSABLE) -> Result:
     """Waits for an answer; what went wrong becomes one sentence."""
     try:
         return future.result()
     except LinkError as problem:
-        raise Failure(str(problem)) from problem
+        raise Failure(f"{port}: {problem}", code) from problem
 
 
 def is_machine(controller: Controller) -> bool:

@@ -11,10 +11,11 @@ from concurrent.futures import Future
 
 from app.cli.failure import DONE
 from app.cli.line import TICK_S, connected, is_machine
-from device.api import Controller, Reply
+from device.api import Controller, NoticeKind, Reply
 from device.tasks import LinkError
 
 LAST_MESSAGES_S = 0.3
+FROM_PROGRAMS = (NoticeKind.MESSAGE, NoticeKind.PROMPT)
 WELCOME = "Ctrl-C sends STOP (it is not an emergency stop), Ctrl-D or an empty file ends"
 
 
@@ -26,9 +27,12 @@ def read_lines(lines: queue.Queue[str | None]) -> None:
 
 
 def show_notices(controller: Controller) -> None:
-    """Prints what the controller says unasked."""
+    """Prints what programs say; what happens to the connection goes to standard error."""
     for notice in controller.notices():
-        print(notice.text, flush=True)
+        if notice.kind in FROM_PROGRAMS:
+            print(notice.text, flush=True)
+        elif notice.kind is not NoticeKind.STOP:
+            print(f"twoletter: {notice.text}", file=sys.stderr, flush=True)
 
 
 def shown(future: Future[Reply]) -> None:
@@ -41,7 +45,7 @@ def shown(future: Future[Reply]) -> None:
     if reply.text:
         print(reply.text, flush=True)
     if not reply.accepted:
-        print(f"? {reply.code} {reply.reason}".rstrip(), flush=True)
+        print(f"? {reply.reason}".rstrip(), flush=True)
 
 
 def send(controller: Controller, line: str) -> Future[Reply] | None:

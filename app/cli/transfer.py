@@ -12,10 +12,9 @@ from app.cli.failure import DONE, NO, Failure
 from app.cli.line import TICK_S, connected, is_machine, result_of
 from app.cli.sources import load_any, write_text
 from device.api import Job
-from device.tasks import LinkError
 
 
-def waited(job: Job[Any]) -> Any:
+def waited(job: Job[Any], port: str) -> Any:
     """Waits for a job, shows how far it is, and gives it up when the user does."""
     shown = ""
     try:
@@ -31,13 +30,11 @@ def waited(job: Job[Any]) -> Any:
     finally:
         if shown:
             print(file=sys.stderr)
-    return result_of(job.future)
+    return result_of(job.future, port, NO)
 
 
 def download(options: argparse.Namespace) -> int:
     """Sends a program and reads it back; 1 when it could not be verified."""
-    from device.download import DownloadFailed
-
     path = Path(options.file)
     loaded = load_any(path)
     if loaded.listing and (errors := [each for each in loaded.listing.problems if each.severity == "error"]):
@@ -45,10 +42,7 @@ def download(options: argparse.Namespace) -> int:
     with connected(options) as controller:
         if is_machine(controller) and not options.control:
             raise Failure(f"{options.port}: downloading to a machine needs --control")
-        try:
-            done = waited(controller.download(loaded.text))
-        except (DownloadFailed, LinkError) as problem:
-            raise Failure(f"{options.port}: {problem}", NO) from problem
+        done = waited(controller.download(loaded.text), options.port)
     print(done.sentence)
     return DONE if done.verified else NO
 
@@ -58,7 +52,7 @@ def upload(options: argparse.Namespace) -> int:
     if options.output and Path(options.output).exists() and not options.force:
         raise Failure(f"{options.output} exists already (--force overwrites it)")
     with connected(options) as controller:
-        text: str = waited(controller.upload())
+        text: str = waited(controller.upload(), options.port)
     text = text if not text or text.endswith("\n") else text + "\n"
     if options.output:
         write_text(Path(options.output), text)
