@@ -62,7 +62,7 @@ def main(folder: Path) -> int:
     studio = Studio(application, settings, folder, connector(folder / "programs", lambda: 600.0), list, {})
     studio.window.show()
     studio.tick.start()
-    click(studio)
+    QTimer.singleShot(0, lambda: click(studio))
     QTimer.singleShot(0, lambda: begin(studio, None, "simulator:ssc4"))
     times: dict[str, float] = {}
     began = time.time()
