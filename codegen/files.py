@@ -150,9 +150,8 @@ def _save(path: Path, text: str) -> None:
             os.fsync(file.fileno())
         _same_permissions(path, name)
         os.replace(name, path)
-    except BaseException:
+    finally:
         Path(name).unlink(missing_ok=True)
-        raise
     _sync_folder(path.parent)
 
 

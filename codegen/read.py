@@ -18,6 +18,7 @@ from codegen.fields import (
     ListOf,
     PerAxis,
     Quantity,
+    Smoothing,
     fields_of,
     is_shown,
     joined,
@@ -200,7 +201,7 @@ def _sentence(instruction: Instruction, setup: Setup) -> str:
 def _has_axes(kind: type[Any]) -> bool:
     return any(
         isinstance(field, AxisName | AxisSet | PerAxis)
-        or (isinstance(field, Quantity) and field.axis)
+        or (isinstance(field, Quantity | Smoothing) and field.axis)
         or (isinstance(field, ListOf) and any(name in fields_of(field.row) for name in ("axis", "axes")))
         for field in fields_of(kind).values()
     )
@@ -228,7 +229,7 @@ def shown(instruction: Any, name: str) -> bool:
 def context_of(item: Any, name: str, setup: Setup, axis: str = "") -> Context:
     """The context of a field: the setup, and the axis its sibling names."""
     field = fields_of(item)[name]
-    if not axis and isinstance(field, Quantity) and field.axis:
+    if not axis and isinstance(field, Quantity | Smoothing) and field.axis:
         letter: str = getattr(item, field.axis, "")
         axis = letter if letter and letter in AXES else ""
     return Context(setup, axis)

@@ -14,10 +14,10 @@ from codegen.fields import (
     Choice,
     Dimension,
     Flag,
-    Number,
     PerAxis,
     PerAxisText,
     Quantity,
+    Smoothing,
     value,
 )
 from codegen.instructions.configuration import ACCELERATION, DECELERATION, SPEED
@@ -135,12 +135,8 @@ class SingleAxisMove(Instruction):
         "",
     )
     smoothing: str = value(
-        Number(
+        Smoothing(
             label="Smoothing",
-            low=0,
-            high=255,
-            literal=True,
-            required=False,
             help="0 (none) to 255 (most) rounds the corners of the speed profile; on a stepper 0.5 to 8.",
         ),
         "",

@@ -1,0 +1,69 @@
+"""Kinds of value an instruction can hold: what is wrong with a value, how it reads, what is sent for it.
+
+Values are kept as the text the person typed ("" = not given); choices are members of a StrEnum, per-axis
+values are four texts in the order X Y Z W.
+"""
+
+from __future__ import annotations
+
+from codegen.fields.choices import AxisName, AxisSet, Choice, Flag, PerAxis, axes_problem, joined
+from codegen.fields.field import (
+    AXES,
+    NONE,
+    Context,
+    Counts,
+    Field,
+    ListOf,
+    PerAxisText,
+    fields_of,
+    is_shown,
+    value,
+)
+from codegen.fields.numeric import Condition, Dimension, ExpressionField, Number, Quantity, Smoothing, value_of
+from codegen.fields.texts import (
+    LABEL,
+    SYSTEM_LABELS,
+    Code,
+    InputNumber,
+    LabelName,
+    MessageText,
+    OutputNumber,
+    Text,
+    VariableName,
+)
+
+__all__ = [
+    "AXES",
+    "LABEL",
+    "NONE",
+    "SYSTEM_LABELS",
+    "AxisName",
+    "AxisSet",
+    "Choice",
+    "Code",
+    "Condition",
+    "Context",
+    "Counts",
+    "Dimension",
+    "ExpressionField",
+    "Field",
+    "Flag",
+    "InputNumber",
+    "LabelName",
+    "ListOf",
+    "MessageText",
+    "Number",
+    "OutputNumber",
+    "PerAxis",
+    "PerAxisText",
+    "Quantity",
+    "Smoothing",
+    "Text",
+    "VariableName",
+    "axes_problem",
+    "fields_of",
+    "is_shown",
+    "joined",
+    "value",
+    "value_of",
+]
