@@ -21,7 +21,7 @@ from device import commands, live
 from device.asking import Listing, Prompt, Waiting
 from device.commands import Reply
 from device.door import Door
-from device.download import Download, Downloaded, DownloadFailed, Job, upload_steps
+from device.download import Download, Downloaded, DownloadFailed, Job, recover, upload_steps
 from device.hold import Lease
 from device.identify import Identity, identify, read_once
 from device.link import Link, Traffic
@@ -289,6 +289,7 @@ class Controller:
         still = yield from stopping.steps()
         if still:
             self.waiting.restarted()
+            self.waiting.unfinished = False
             self.waiting.threads(frozenset())
             self.door.question = ""
         return still
@@ -526,6 +527,8 @@ class _Events:
         c = self._c
         while True:
             try:
+                if c.waiting.unfinished:
+                    yield from recover(c.waiting, c.nonces)
                 return (yield from identify(c.nonces, c.line.address))
             except LinkLost as reason:
                 if c.state is not State.LOST:
@@ -600,6 +603,9 @@ class Memory:
         except LinkError as reason:
             if download.touched:
                 c.set_listing(None)
+            if download.unfinished and not isinstance(reason.__cause__, Stopped):
+                c.waiting.unfinished = True
+                c.link.submit(recover(c.waiting, c.nonces), Priority.USER, "download")
             c.notify(NoticeKind.DOWNLOAD, str(reason))
             raise
         c.set_listing(download.text)

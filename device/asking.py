@@ -165,6 +165,7 @@ class Waiting:
         self.data_mode = False
         self.entry = ""  # DL, QD or ED: the controller takes lines for a program or an array
         self.free = False  # the person said that nothing is waiting
+        self.unfinished = False  # a download broke off: the controller may still take lines for a program
 
     @property
     def question(self) -> str:
@@ -179,6 +180,8 @@ class Waiting:
     @property
     def imminent(self) -> str:
         """Why reading is suspended although no question is shown yet, as a sentence."""
+        if self.unfinished:
+            return "Live values rest: a download broke off and is being ended."
         if self.free or self.position == frozenset():
             return ""
         if self.listing is None:

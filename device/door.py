@@ -8,6 +8,7 @@ from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse_line
 
 REVISION = b"\x12\x16"
+LEAVE = b"\x11\x1b\x5c"  # leaves editor, data mode and download; nothing in command mode
 MASTER_RESET = b"\x12\x13"
 
 TELLS = frozenset(["TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TI", "SC", "RL"])  # never TC: reading it clears it
@@ -18,7 +19,7 @@ CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # readi
 @lru_cache(maxsize=2048)
 def only_reads(data: bytes) -> bool:
     """Whether these bytes can change nothing: listed reads, queries, or the revision."""
-    if data in (REVISION, b"\r"):
+    if data in (REVISION, LEAVE + b"\r", b"\r"):
         return True
     if not data.endswith(b"\r") or not data.isascii() or any(byte < 0x20 for byte in data[:-1]):
         return False

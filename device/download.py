@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from codegen.models import Model
+from device.asking import Waiting
+from device.door import LEAVE
 from device.identify import fence, read_once
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, Stopped, Wait
 from device.transport import LineSettings
@@ -112,6 +114,7 @@ class Download:
         self._nonces, self._clock, self._folder, self._today = nonces, clock, folder, today
         self._phase = "before anything was sent"
         self.touched = False
+        self.unfinished = False
 
     @property
     def text(self) -> str:
@@ -170,6 +173,7 @@ class Download:
     def _send(self, paced: bool) -> Steps[None]:
         self._phase = "before the first line"
         total = len(self.lines)
+        self.unfinished = True
         yield Send(b"DL\r", hold=True, watch_for=b"?")
         settled = yield Wait(SETTLE_S, hold=True, watch_for=b"?")
         self._reply_where_none_belongs(settled, -1)
@@ -191,11 +195,13 @@ class Download:
         self._job.show("finishing", total, total)
         answer = yield Send(b"\\", Prompts(1), timeout_s=2.0, hold=True)
         if answer.kind is Kind.REFUSED:
+            self.unfinished = False
             yield from self._explain()
         if answer.kind is Kind.SILENT:
             raise LinkLost("no answer")
         if answer.kind is not Kind.ACCEPTED or not answer.certain:
             raise _Garbled("the controller's answer was not clear")
+        self.unfinished = False
 
     def _reply_where_none_belongs(self, answer: Answer, number: int) -> None:
         if answer.kind is Kind.REFUSED:
@@ -261,6 +267,17 @@ def upload_steps(nonces: Iterator[str], job: Job[str] | None) -> Steps[str]:
     return answer.text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+def recover(waiting: Waiting, nonces: Iterator[str]) -> Steps[None]:
+    """Ends a download that broke off, again and again until the controller answers as in command mode."""
+    while True:
+        yield Send(LEAVE + b"\r")
+        answer = yield from fence(nonces)
+        if answer.kind is Kind.VALUES:
+            waiting.unfinished = False
+            return
+        yield Wait(0.3)
+
+
 def proved(nonces: Iterator[str], command: str, timeout_s: float) -> Steps[Answer]:
     """A command and the proof that it was accepted."""
     nonce = next(nonces)
@@ -275,5 +292,5 @@ def write_dated(folder: Path, text: str, now: datetime) -> Path:
     while path.exists():
         count += 1
         path = folder / f"{now:%Y-%m-%d %H.%M.%S} ({count}).dmc"
-    path.write_text(text + "\n", encoding="ascii", errors="replace", newline="\n")
+    path.write_text(text.rstrip("\n") + "\n", encoding="ascii", errors="replace", newline="\n")
     return path

@@ -19,13 +19,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+from device.door import LEAVE
 from device.tasks import Send, Steps, Wait
 from device.wire import Answer, Frame, Kind, Proof, Shape, framed
 
 NO_ANSWER_S = 0.5  # this long without an answer is NOT CONFIRMED
 GRACE_S = 0.3  # beyond the stopping time before AB
 GIVE_UP_S = 15.0  # a burn keeps a controller silent for up to 10 s
-LEAVE = b"\x11\x1b\x5c"
 
 
 class StopState(StrEnum):

@@ -122,7 +122,7 @@ class Wire:
         self._buffer = bytearray()
         self._marked = bytearray()
         self._text = ""
-        self._owed = 0
+        self._stray = 0
         self._expected: Expectation | None = None
         self._question = False
         self._echoes: deque[str] = deque(maxlen=8)
@@ -151,9 +151,6 @@ class Wire:
                 self._buffer.append(code)
                 self._marked.append(byte >> 7)
                 self._question |= code == 0x3F
-        if self._owed and self._buffer[:1] == b":":
-            self._drop(1)
-            self._owed -= 1
         if self._expected is None:
             self._release(len(self._buffer))
         elif isinstance(self._expected, Frame):
@@ -177,8 +174,7 @@ class Wire:
             return None
         if found is not None:
             self._expected = None
-            if not self._owed:
-                self._release(len(self._buffer))
+            self._release(len(self._buffer))
         return found
 
     def give_up(self) -> Answer:
@@ -193,7 +189,8 @@ class Wire:
     def forget(self) -> None:
         """Throws away everything, as after a lost link."""
         self._drop(len(self._buffer))
-        self._text, self._owed, self._expected, self._question = "", 0, None, False
+        self._stray = 0
+        self._text, self._expected, self._question = "", None, False
         self._lines.clear()
         self._echoes.clear()
 
@@ -231,8 +228,8 @@ class Wire:
             return None
         body = start + len(head)
         length = sum(shape.width for shape in expected.shapes) + 3
-        if len(self._buffer) - body < length:
-            return None
+        if len(self._buffer) - body < length + 1:
+            return None  # the prompt belongs to it
         pattern = "".join(shape.pattern for shape in expected.shapes) + f"{chr(CLOSE)}\r\n"
         match = re.fullmatch(pattern, bytes(self._buffer[body : body + length]).decode("ascii"))
         if match is None:
@@ -241,17 +238,17 @@ class Wire:
             return Answer(Kind.UNCERTAIN, certain=False)
         self._release(start)
         self._drop(len(head) + length)
-        self._owe_one()
+        self._take_prompt()
         return Answer(Kind.VALUES, values=tuple(float(group.replace(" ", "")) for group in match.groups()))
 
     def _proof(self, expected: Proof) -> Answer | None:
         mark = bytes([OPEN]) + expected.nonce.encode() + bytes([CLOSE]) + b"\r\n"
         start = self._buffer.find(mark)
-        if start < 0:
+        if start < 0 or len(self._buffer) == start + len(mark):
             return None
         window = self._window(start)
         self._drop(start + len(mark))
-        self._owe_one()
+        self._take_prompt()
         text, certain = _without_prompts(window, expected.prompts)
         if text and not (expected.data and certain):
             self._add_text(text)
@@ -305,12 +302,14 @@ class Wire:
 
     # ---------------------------------------------------------------- pieces
 
-    def _owe_one(self) -> None:
-        """The prompt of a frame follows it; it is taken as soon as it is there."""
+    def _take_prompt(self) -> None:
+        """The prompt of a frame follows it; where other text came in between, it is a stray one."""
+        self._text = self._unprompted(self._text, take=True)
+        self._stray = 0  # everything asked before has been answered
         if self._buffer[:1] == b":":
             self._drop(1)
         else:
-            self._owed += 1
+            self._stray = 1
 
     def _window(self, end: int) -> str:
         """What came before `end`, without marked characters and without the echo of the line sent."""
@@ -346,19 +345,19 @@ class Wire:
     def _late(self, match: re.Match[str]) -> str:
         """A frame nobody waits for any more is no text, but its mark is remembered."""
         self.seen.append(match.group(1))
-        self._owed += 1
+        self._stray += 1
         return ""
 
     def owe(self, prompts: int) -> None:
-        """So many prompts will come that no expectation takes."""
-        self._owed += prompts
+        """So many prompts may come that no expectation takes; they are no text."""
+        self._stray += prompts
 
     def _unprompted(self, line: str, take: bool) -> str:
-        owed = self._owed
-        while owed and line[:1] in (":", "?"):
-            line, owed = line[1:], owed - 1
+        stray = self._stray
+        while stray and line[:1] in (":", "?"):
+            line, stray = line[1:], stray - 1
         if take:
-            self._owed = owed
+            self._stray = stray
         return line
 
 

@@ -1,0 +1,241 @@
+"""Downloads: verified, the old program kept, every failure one sentence that claims nothing, and afterwards it works again."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+
+from codegen.models import model
+from device.api import Badge, DownloadFailed, LinkError, State
+from device.download import Job, difference, objection, program_lines, refusal, write_dated
+from device.transport import TransportLost
+from tests.device.bench import Bench
+
+PROGRAM = "\n".join(["#A", *(f"PR {n},{n};SP {1000 + n};NO LINE {n}" for n in range(60)), "EN"])
+PHASES = ("before DL", "first line", "first third", "second third", "last line", "backslash", "verifying")
+
+
+def at(bench: Bench, phase: str, job: Job[object]) -> bool:
+    """Whether the download has come to this phase."""
+    if phase == "before DL":
+        return b"UL\r" in bench.sent
+    share = {"first line": 0.02, "first third": 0.33, "second third": 0.66, "last line": 0.98}.get(phase)
+    if share is not None:
+        return job.phase == "sending" and job.fraction >= share
+    return job.phase == {"backslash": "finishing", "verifying": "verifying"}[phase]
+
+
+def begun(phase: str, folder: Path | None = None) -> tuple[Bench, Job[object]]:
+    bench = Bench("ssc4", program_folder=folder).ready()
+    bench.result(bench.controller.download("#OLD\nEN").future)
+    bench.sent.clear()
+    job = bench.controller.download(PROGRAM)
+    bench.run_until(lambda: at(bench, phase, job))
+    return bench, job
+
+
+def fails_in_one_sentence(bench: Bench, job: Job[object]) -> str:
+    with pytest.raises(LinkError) as failure:
+        bench.result(job.future, 60.0)
+    text = str(failure.value)
+    assert "verified." not in text
+    assert "\n" not in text
+    assert text.endswith(".")
+    return text
+
+
+def works_again(bench: Bench) -> None:
+    bench.run_until(lambda: bench.controller.state is State.READY, 30.0)
+    again = bench.result(bench.controller.download(PROGRAM).future, 60.0)
+    assert again.verified
+    assert bench.result(bench.controller.upload().future).rstrip("\n") == PROGRAM
+
+
+def test_a_download_is_verified_and_the_old_program_kept(tmp_path: Path) -> None:
+    bench = Bench("ssc4", program_folder=tmp_path).ready()
+    bench.result(bench.controller.download("#OLD\nPR 5\nEN").future)
+    assert list(tmp_path.iterdir()) == []
+    done = bench.result(bench.controller.download(PROGRAM).future)
+    assert done.verified
+    assert done.kept is not None
+    assert done.kept.read_text() == "#OLD\nPR 5\nEN\n"
+    assert bench.result(bench.controller.upload().future).rstrip("\n") == PROGRAM
+
+
+def test_remarks_are_the_hosts_and_never_sent() -> None:
+    assert program_lines("#A\nREM a remark\n  REM another\nPR 1\nEN\n\n") == ["#A", "PR 1", "EN"]
+    bench = Bench("ssc4").ready()
+    bench.result(bench.controller.download("#A\nREM secret\nEN").future)
+    assert b"secret" not in bench.sent
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_cable_that_is_pulled(phase: str) -> None:
+    bench, job = begun(phase)
+    bench.loopback.unplugged = True
+    fails_in_one_sentence(bench, job)
+    assert bench.controller.program_badge is not Badge.SAME
+    bench.run(3.0)
+    bench.loopback.unplugged = False
+    works_again(bench)
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_port_that_goes_away(phase: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench, job = begun(phase)
+
+    def gone(data: bytes) -> int:
+        raise TransportLost("The port is gone.")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(bench.loopback, "write", gone)
+        patch.setattr(bench.loopback, "read", gone)
+        text = fails_in_one_sentence(bench, job)
+        assert "connection was lost" in text
+    works_again(bench)
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_garbage_on_the_line(phase: str) -> None:
+    bench, job = begun(phase)
+    transmit = bench.simulation.transmit
+    noise = [b"\xf7?\x00:", b"\x81\xfe??"]
+    bench.simulation.transmit = lambda port: (noise.pop() if noise else b"") + transmit(port)  # type: ignore[method-assign]
+    try:
+        bench.result(job.future, 60.0)
+    except LinkError as failure:
+        assert "\n" not in str(failure)
+    works_again(bench)
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_controller_switched_off_and_on(phase: str) -> None:
+    bench, job = begun(phase)
+    bench.simulation.stimulus("reset", 0)
+    bench.simulation.stimulus("reset", 1)
+    try:
+        bench.result(job.future, 60.0)
+    except LinkError as failure:
+        assert "verified." not in str(failure)
+        assert "\n" not in str(failure)
+    else:
+        assert phase == "verifying"
+    assert not any(axis["moving"] for axis in bench.simulation.state()["axes"].values())
+    works_again(bench)
+
+
+def test_cancelling_says_what_the_controller_holds() -> None:
+    bench, job = begun("first third")
+    job.cancel()
+    assert "cancelled at line" in fails_in_one_sentence(bench, job)
+    assert bench.ask("TPX") == " 0000000000"
+    works_again(bench)
+
+
+def test_stop_ends_a_download() -> None:
+    bench, job = begun("first third")
+    bench.controller.stop()
+    assert "STOP was pressed" in fails_in_one_sentence(bench, job)
+    bench.run(1.0)
+    assert "ST" not in bench.result(bench.controller.upload().future).replace("\n", ";").split(";")
+    works_again(bench)
+
+
+def test_a_running_program_is_not_replaced() -> None:
+    bench = Bench("ssc4").ready()
+    bench.result(bench.controller.download("#A\nWT 10\nJP #A").future)
+    bench.result(bench.controller.execute("A", anyway=True))
+    with pytest.raises(DownloadFailed, match="a program is running"):
+        bench.result(bench.controller.download(PROGRAM).future)
+
+
+def test_a_double_label_is_named_with_its_line() -> None:
+    bench = Bench("ssc4").ready()
+    with pytest.raises(LinkError, match=r"error 61, the label #A in line 2"):
+        bench.result(bench.controller.download("#A\nEN\n#A\nEN").future)
+
+
+def test_what_can_not_be_a_program_is_not_sent() -> None:
+    bench = Bench("dmc1412").ready()
+    with pytest.raises(DownloadFailed, match="Line 1 has 41 characters; this controller takes 40"):
+        bench.result(bench.controller.download("#A\n" + "N" * 41 + "\nEN").future)
+    assert b"DL" not in bench.sent
+    assert "backslash" in objection(['MG "\\"'], None)
+    assert "251 lines; this controller takes 250" in objection(["NO"] * 251, model("dmc1412"))
+
+
+def test_the_first_difference_in_words() -> None:
+    assert difference(["#A", "PR 1"], ["#A", "PR 7"]) == "line 1 is “PR 7” in the controller, but “PR 1” was sent"
+    assert difference(["#A", "EN"], ["#A"]) == "the controller holds 1 lines, 2 were sent"
+    assert difference(["#A", "EN"], ["#A", "EN"]) == ""
+
+
+def test_refusals_in_words() -> None:
+    assert "error 62, it has 3 labels" in refusal(62, ["#A", "#B;#C"], None)
+    assert "longest is line 1" in refusal(60, ["#A", "N" * 90], None)
+
+
+def test_files_of_old_programs_are_never_overwritten(tmp_path: Path) -> None:
+    now = datetime(2024, 5, 6, 7, 8, 9)
+    first, second = write_dated(tmp_path, "#A", now), write_dated(tmp_path, "#B", now)
+    assert first.name == "2024-05-06 07.08.09.dmc"
+    assert first.read_text() == "#A\n"
+    assert second.read_text() == "#B\n"
+
+
+@pytest.mark.parametrize("baud", [9600, 19200, 38400])
+def test_a_download_uses_nine_tenths_of_the_line(baud: int) -> None:
+    """From DL to the final prompt, 10 bits a character."""
+    bench = Bench("ssc4", baud=baud).ready()
+    listing = "\n".join(
+        ["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(300)), "EN"]
+    )
+    job = bench.controller.download(listing)
+    bench.run_until(lambda: b"DL\r" in bench.sent)
+    start, place = bench.loopback.clock(), bench.sent.index(b"DL\r")
+    bench.run_until(lambda: job.phase == "verifying", 100.0)
+    taken = bench.loopback.clock() - start
+    limit = (bench.sent.index(b"\\") - place + 2) * 10 / baud
+    assert limit / taken >= 0.90
+    bench.result(job.future, 100.0)
+
+
+def test_the_badge_tells_how_program_and_document_stand() -> None:
+    bench = Bench("ssc4").ready()
+    controller = bench.controller
+    assert controller.program_badge is Badge.UNKNOWN
+    controller.show_listing(PROGRAM)
+    bench.result(controller.download(PROGRAM).future)
+    assert controller.program_badge is Badge.SAME
+    controller.show_listing(PROGRAM + "\n#B\nEN")
+    assert controller.program_badge is Badge.CHANGED
+    with pytest.raises(LinkError, match="changed since the download"):
+        bench.result(controller.execute("A"))
+    bench.ask("RS")
+    bench.run(3.0)
+    assert controller.program_badge is Badge.UNKNOWN
+
+
+def test_burning_says_what_the_next_power_up_will_do() -> None:
+    bench = Bench("ssc4").ready()
+    memory = bench.controller.memory
+    bench.result(bench.controller.download("#AUTO\nEN").future)
+    assert "starts by itself at #AUTO" in memory.burn_words()
+    bench.result(bench.controller.download("#A\nEN").future)
+    assert "does not start" in memory.burn_words()
+    assert bench.result(memory.burn_program()).accepted
+
+
+def test_a_cable_pulled_while_burning() -> None:
+    bench = Bench("ssc4").ready()
+    bench.result(bench.controller.download(PROGRAM).future)
+    future = bench.controller.burn_program()
+    bench.run(0.5)
+    bench.loopback.unplugged = True
+    with pytest.raises(LinkError, match="No answer"):
+        bench.result(future)
+    bench.loopback.unplugged = False
+    bench.run_until(lambda: bench.controller.state is State.READY, 30.0)
+    assert bench.ask("TPX") == " 0000000000"
