@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from app.cli.failure import DONE, NO, Failure
+from app.cli.limits import apply_limits
 from app.cli.report import report
 from app.cli.sources import Loaded, load_any, read_text
 from app.cli.stimulus import Happening, read_stimulus
@@ -122,6 +123,7 @@ def entry_of(text: str | None) -> str | int:
 def loaded_simulation(loaded: Loaded, plants: dict[str, Plant] | None, entry: str | None) -> Simulation:
     """A simulator with the program in it, started."""
     simulation = Simulation(loaded.model, plants=plants)
+    apply_limits(simulation, loaded.setup)
     try:
         simulation.load_program(loaded.text)
     except DownloadRefused as refused:

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 from app.__main__ import main
+from codegen.files import save_setup
+from codegen.setup import Axis, Setup, Unit
 from resources import path as resource
 
 CUTTER = str(resource("examples/wire-cutter.tlp"))
@@ -189,6 +191,19 @@ def test_a_program_with_its_own_setup(write: Write, capsys: Said) -> None:
     assert found["controller"] == "ssc1" and found["axes"]["X"]["commanded"] == 6370
     assert main(["run", CUTTER, "--stimulus", write("s.csv", STIMULUS), "--time", "4"]) == 0
     assert "commanded 6370 (10 in)" in capsys.readouterr().out
+
+
+def test_a_setup_gives_units_and_limits(write: Write, tmp_path: Path, capsys: Said) -> None:
+    axis = Axis(unit=Unit.MM, counts_per_unit="100", forward_limit="20", error_limit="5.009")
+    path = tmp_path / "machine.tls"
+    save_setup(path, Setup(model="dmc1412").with_axis("X", axis))
+    source = write("a.dmc", "KD 200\nDC 1024000\nJG 2000\nBGX\nAMX\nMG _ERX{F5.0}\nEN\n")
+    assert main(["run", source, "--setup", str(path)]) == 0
+    said = capsys.readouterr().out
+    # dmc-1412-1414.txt l.4140-4146: the jog stops at the forward limit, 20 mm of 100 counts
+    assert "stop code 2" in said and "(20" in said and " 00500" in said
+    found = ran(capsys, source, "--setup", str(path))
+    assert found["controller"] == "dmc1412" and 2000 <= found["axes"]["X"]["commanded"] <= 2010
 
 
 def test_a_plant_file_is_what_hangs_on_the_axis(write: Write, capsys: Said) -> None:
