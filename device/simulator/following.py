@@ -54,7 +54,6 @@ class Cam:
 
     def __init__(self, state: State, parts: Sequence[State]) -> None:
         self._state, self._parts = state, parts
-        self._net = [0.0] * len(parts)
         self.master(0, auxiliary=False)
         self.interval(256, 0)
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from enum import IntFlag
 
 import numpy
 
 from device.simulator.following import Cam, Contour
-from device.simulator.kernel import events, inputs, layout, profile
+from device.simulator.kernel import events, inputs, layout, path, profile
 from device.simulator.kernel.compiled import Vector, as_state, loop_for
 from device.simulator.kernel.layout import State, axis_base
 from device.simulator.mechanics import write_period, write_plant
@@ -18,7 +17,7 @@ from device.simulator.plant import Plant
 from device.simulator.readings import Readings, wrapped
 from device.simulator.registers import Register, write_defaults, write_register
 from device.simulator.sequence import Path
-from device.simulator.watches import Watch, arm, conditions, release
+from device.simulator.watches import Watch, arm, release
 
 __all__ = ["Event", "Motion", "Register", "Watch"]
 
@@ -48,7 +47,6 @@ class Motion(Readings, Outside):
         self._no_trace: Vector = numpy.zeros(1)
         self._trace: Vector = self._no_trace
         self._plants = [plants[i] if i < len(plants) else Plant() for i in range(axes)]
-        self._marks: dict[int, tuple[Watch, int, float]] = {}
         self._power_up(seed)
         self.path = Path(self._state, self._parts)
         self.cam = Cam(self._state, self._parts)
@@ -64,7 +62,7 @@ class Motion(Readings, Outside):
         for n in range(8):
             state[layout.INPUT_1 + n] = 1.0
         for n in range(layout.SINE_LENGTH + 1):
-            state[layout.SINE + n] = math.sin(2.0 * math.pi * n / layout.SINE_LENGTH)
+            state[layout.SINE + n] = path.sine(360.0 * n / layout.SINE_LENGTH)
         for axis in range(self.axes):
             write_defaults(state, axis_base(axis))
             write_plant(state, axis_base(axis), self._plants[axis], state[layout.PERIOD_T])
@@ -254,8 +252,7 @@ class Motion(Readings, Outside):
     # --- waiting ----------------------------------------------------------------------------------------------------
     def watch(self, kind: Watch, axis: int = 0, value: float = 0.0) -> int:
         """Arms a watch and tests it at once; `run` returns after the sample in which it trips."""
-        number = arm(self._state, conditions(self._state, kind, axis, value))
-        self._marks[number] = (kind, axis, value)
+        number = arm(self._state, kind, axis, value)
         events.test_watches(self._state)
         return number
 
@@ -265,19 +262,7 @@ class Motion(Readings, Outside):
 
     def drop(self, number: int) -> None:
         """Frees a watch; a tripped AD or AR marks the place from which the next AR counts."""
-        state = self._state
-        if self.tripped(number):
-            kind, axis, value = self._marks[number]
-            b = axis_base(axis)
-            if kind in (Watch.AFTER_DISTANCE, Watch.AFTER_RELATIVE):
-                origin = layout.START if kind is Watch.AFTER_DISTANCE else layout.MARK
-                way = state[b + layout.POSITION] - state[b + origin]
-                reached = math.copysign(min(abs(value), abs(way)), way)
-                state[b + layout.MARK] = state[b + origin] + reached
-                state[b + layout.MARK_DISTANCE] = abs(state[b + layout.POSITION] - state[b + layout.MARK])
-            elif kind is Watch.PATH_DISTANCE:
-                state[layout.PATH_MARK] = min(state[layout.PATH_TRAVELLED], state[layout.PATH_MARK] + value)
-        release(state, number)
+        release(self._state, number)
 
     def take_events(self) -> list[tuple[Event, int]]:
         """What has happened since the last call, and forgets it."""

@@ -22,12 +22,7 @@ class Path:
         self.set_deceleration(256000.0)
         state[layout.PATH_RATIO] = state[layout.PATH_SMOOTHING] = 1.0
         state[layout.PATH_TANGENT] = -1.0
-        self._scale = (1.0, 1.0)
-        self._tangent = (0.0, 0.0)
-        self._members: tuple[int, ...] = ()
-        self._vector = False
-        self._point = [0.0, 0.0]
-        self._angle: float | None = None
+        state[layout.PATH_SCALE_FIRST] = state[layout.PATH_SCALE_SECOND] = 1.0
 
     # --- settings -----------------------------------------------------------------------------------------------------
     def set_speed(self, counts_per_second: float) -> None:
@@ -52,11 +47,13 @@ class Path:
 
     def set_scale(self, first: float, second: float) -> None:
         """ES: the larger number stretches its axis by their ratio."""
-        self._scale = (max(1.0, first / second), max(1.0, second / first))
+        self._state[layout.PATH_SCALE_FIRST] = max(1.0, first / second)
+        self._state[layout.PATH_SCALE_SECOND] = max(1.0, second / first)
 
     def set_tangent(self, counts_per_degree: float, zero: float) -> None:
         """TN: slope of the tangent axis and its position for angle 0."""
-        self._tangent = (counts_per_degree, zero)
+        self._state[layout.PATH_TANGENT_SCALE] = counts_per_degree
+        self._state[layout.PATH_TANGENT_ZERO] = zero
 
     # --- the sequence -------------------------------------------------------------------------------------------------
     def _open(self) -> None:
@@ -67,31 +64,47 @@ class Path:
             state[slot] = 0.0
         for part in self._parts:
             part[layout.PATH_END] = 0.0
-        self._point = [0.0, 0.0]
-        self._angle = None
+        for slot in (layout.PATH_LAST_FIRST, layout.PATH_LAST_SECOND, layout.PATH_HEADING_KNOWN):
+            state[slot] = 0.0
 
     def linear(self, axes: Sequence[int]) -> None:
         """LM: a new sequence of straight segments of these axes."""
         self._open()
-        self._members, self._vector = tuple(axes), False
+        self._state[layout.PATH_OPENED] = 1.0
+        self._state[layout.PATH_MEMBERS] = float(sum(1 << axis for axis in set(axes)))
         self._state[layout.PATH_TANGENT] = -1.0
 
     def vector(self, first: int, second: int, tangent: int | None = None) -> None:
         """VM: a new sequence of lines and arcs in the plane of two axes, a third one along the direction of travel."""
         self._open()
-        self._members, self._vector = (first, second), True
+        self._state[layout.PATH_OPENED] = 2.0
         self._state[layout.PATH_FIRST], self._state[layout.PATH_SECOND] = float(first), float(second)
         self._state[layout.PATH_TANGENT] = -1.0 if tangent is None else float(tangent)
 
     @property
     def opened(self) -> str:
         """ "linear", "vector", or "" when neither LM nor VM was given."""
-        return "" if not self._members else "vector" if self._vector else "linear"
+        return ("", "linear", "vector")[int(self._state[layout.PATH_OPENED])]
 
     @property
     def members(self) -> tuple[int, ...]:
         """The axes of the sequence."""
-        return self._members
+        if self._vector:
+            return int(self._state[layout.PATH_FIRST]), int(self._state[layout.PATH_SECOND])
+        mask = int(self._state[layout.PATH_MEMBERS])
+        return tuple(axis for axis in range(len(self._parts)) if mask >> axis & 1)
+
+    @property
+    def _vector(self) -> bool:
+        return self._state[layout.PATH_OPENED] == 2.0
+
+    @property
+    def _point(self) -> tuple[float, float]:
+        return self._state[layout.PATH_LAST_FIRST], self._state[layout.PATH_LAST_SECOND]
+
+    @property
+    def _scale(self) -> tuple[float, float]:
+        return self._state[layout.PATH_SCALE_FIRST], self._state[layout.PATH_SCALE_SECOND]
 
     def _room(self, length: float) -> int:
         if length <= 0.0:
@@ -117,12 +130,12 @@ class Path:
         """LI: increments of the axes of LM."""
         if self._vector:
             return MIXED
-        length = math.sqrt(math.fsum(counts.get(axis, 0) ** 2 for axis in self._members))
+        length = math.sqrt(math.fsum(counts.get(axis, 0) ** 2 for axis in self.members))
         error = self._room(length)
         if error:
             return error
         values: dict[int, float] = {}
-        for axis in self._members:
+        for axis in self.members:
             part = self._parts[axis]
             values[layout.G_START + axis] = part[layout.PATH_END]
             values[layout.G_DIRECTION + axis] = counts.get(axis, 0) / length
@@ -140,7 +153,7 @@ class Path:
         if error:
             return error
         values = {}
-        for index, axis in enumerate(self._members):
+        for index, axis in enumerate(self.members):
             values[layout.G_START + axis] = self._point[index] * self._scale[index]
             values[layout.G_DIRECTION + axis] = step[index] * self._scale[index] / length
         values |= self._turn(math.degrees(math.atan2(step[1], step[0])), 0.0)
@@ -158,28 +171,28 @@ class Path:
             return error
         centre = (self._point[0] - radius * path.sine(start + 90.0), self._point[1] - radius * path.sine(start))
         values = {layout.G_ARC: 1.0, layout.G_DIRECTION + 2: start, layout.G_DIRECTION + 3: sweep / length}
-        for index, axis in enumerate(self._members):
+        for index, axis in enumerate(self.members):
             values[layout.G_START + axis] = centre[index] * self._scale[index]
             values[layout.G_DIRECTION + index] = radius * self._scale[index]
         values |= self._turn(start + math.copysign(90.0, sweep), sweep / length)
         self._add(length, speed, values)
         end = start + sweep
         self._end_at(centre[0] + radius * path.sine(end + 90.0), centre[1] + radius * path.sine(end))
-        if self._angle is not None:
-            self._angle += sweep
+        self._state[layout.PATH_HEADING] += sweep
         return 0
 
     def _turn(self, heading: float, slope: float) -> dict[int, float]:
         """The tangent axis in a segment that begins in direction `heading`; angles go on without jumps of 360°."""
-        if self._angle is not None:
-            heading += 360.0 * round((self._angle - heading) / 360.0)
-        self._angle = heading
-        scale, zero = self._tangent
+        state = self._state
+        if state[layout.PATH_HEADING_KNOWN]:
+            heading += 360.0 * round((state[layout.PATH_HEADING] - heading) / 360.0)
+        state[layout.PATH_HEADING], state[layout.PATH_HEADING_KNOWN] = heading, 1.0
+        scale, zero = state[layout.PATH_TANGENT_SCALE], state[layout.PATH_TANGENT_ZERO]
         return {layout.G_TANGENT: zero + scale * heading, layout.G_TANGENT_SLOPE: scale * slope}
 
     def _end_at(self, first: float, second: float) -> None:
-        self._point = [first, second]
-        for index, axis in enumerate(self._members):
+        self._state[layout.PATH_LAST_FIRST], self._state[layout.PATH_LAST_SECOND] = first, second
+        for index, axis in enumerate(self.members):
             self._parts[axis][layout.PATH_END] = self._point[index] * self._scale[index]
 
     def end(self) -> None:
@@ -195,7 +208,7 @@ class Path:
         """BGS: the sequence starts where the axes are."""
         state = self._state
         for axis, part in enumerate(self._parts):
-            member = 1.0 if axis in self._members else 2.0 if axis == state[layout.PATH_TANGENT] else 0.0
+            member = 1.0 if axis in self.members else 2.0 if axis == state[layout.PATH_TANGENT] else 0.0
             part[layout.PATH_MEMBER] = member
             if member:
                 part[layout.MODE] = layout.MODE_PATH

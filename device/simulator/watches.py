@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from enum import Enum, auto
 
 from device.simulator.kernel import layout
@@ -62,21 +63,39 @@ def conditions(state: State, kind: Watch, axis: int, value: float) -> tuple[Cond
     return table[kind]
 
 
-def arm(state: State, pair: tuple[Condition, Condition]) -> int:
+def arm(state: State, kind: Watch, axis: int, wanted: float) -> int:
     """Puts the conditions in a free place of the table and returns its number."""
+    pair = conditions(state, kind, axis, wanted)
     for number in range(layout.MAXIMUM_WATCHES):
         place = layout.WATCH + layout.WATCH_STRIDE * number
         if state[place + layout.W_STATE] == 0.0:
-            for offset, value in enumerate((1.0, *pair[0], *pair[1])):
+            for offset, value in enumerate((1.0, *pair[0], *pair[1], kind.value, axis, wanted)):
                 state[place + offset] = value
             state[layout.WATCHES] = max(state[layout.WATCHES], number + 1.0)
             return number
     raise RuntimeError("all watches are in use")
 
 
+def mark_place(state: State, place: int) -> None:
+    """After AD or AR the next AR counts from where this one tripped; AV likewise along the path."""
+    kind, b = Watch(int(state[place + layout.W_KIND])), axis_base(int(state[place + layout.W_AXIS]))
+    wanted = state[place + layout.W_NUMBER]
+    if kind in (Watch.AFTER_DISTANCE, Watch.AFTER_RELATIVE):
+        origin = layout.START if kind is Watch.AFTER_DISTANCE else layout.MARK
+        way = state[b + layout.POSITION] - state[b + origin]
+        reached = math.copysign(min(abs(wanted), abs(way)), way)
+        state[b + layout.MARK] = state[b + origin] + reached
+        state[b + layout.MARK_DISTANCE] = abs(state[b + layout.POSITION] - state[b + layout.MARK])
+    elif kind is Watch.PATH_DISTANCE:
+        state[layout.PATH_MARK] = min(state[layout.PATH_TRAVELLED], state[layout.PATH_MARK] + wanted)
+
+
 def release(state: State, number: int) -> None:
-    """Frees a place of the table."""
-    state[layout.WATCH + layout.WATCH_STRIDE * number + layout.W_STATE] = 0.0
+    """Frees a place of the table; what tripped marks its place."""
+    place = layout.WATCH + layout.WATCH_STRIDE * number
+    if state[place + layout.W_STATE] == 2.0:
+        mark_place(state, place)
+    state[place + layout.W_STATE] = 0.0
     used = int(state[layout.WATCHES])
     while used and state[layout.WATCH + layout.WATCH_STRIDE * (used - 1) + layout.W_STATE] == 0.0:
         used -= 1

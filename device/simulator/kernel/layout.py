@@ -70,13 +70,24 @@ ANALOG_1 = 24  # eight voltages
     PATH_FIRST,  # plane of VM
     PATH_SECOND,
     PATH_TANGENT,  # axis that follows the direction of travel, -1: none
-) = range(48, 69)
+    PATH_OPENED,  # 1 LM, 2 VM
+    PATH_MEMBERS,  # bit a: axis a is one of LM's
+    PATH_LAST_FIRST,  # end of the last segment given, before ES
+    PATH_LAST_SECOND,
+    PATH_HEADING,  # direction of travel there, degrees
+    PATH_HEADING_KNOWN,
+    PATH_SCALE_FIRST,  # ES
+    PATH_SCALE_SECOND,
+    PATH_TANGENT_SCALE,  # TN, counts a degree
+    PATH_TANGENT_ZERO,
+) = range(48, 79)
 
 # --- watches: armed (0 free, 1 armed, 2 tripped), then two conditions (slot, operator, value), either trips ---
 WATCH = 80
-WATCH_STRIDE = 8
+WATCH_STRIDE = 10
 MAXIMUM_WATCHES = 64
 W_STATE, W_SLOT, W_OPERATOR, W_VALUE, W_SLOT_2, W_OPERATOR_2, W_VALUE_2 = range(7)
+W_KIND, W_AXIS, W_NUMBER = range(7, 10)  # as the host asked for it
 NOT_LESS, NOT_MORE, EQUAL, NEVER = range(4)
 
 # --- one axis ---------------------------------------------------------------------------------------------------------

@@ -95,7 +95,7 @@ def finish(A: State) -> None:
     if A[STAGE] == 0.0:  # between two stages of HM the move goes on
         A[MOVING] = 0.0
     A[AT_SPEED] = 0.0
-    A[SETTLING] = 0.0
+    A[SETTLING] = -1.0  # 0 at the end of this sample
 
 
 def end_of_ramp(A: State) -> None:
