@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import scaled
+from device.simulator.twoletter.behaviour.recording import input_edge
 from device.simulator.twoletter.behaviour.trippoints import input_changed
 from device.simulator.twoletter.state import AXES
 
@@ -56,6 +57,8 @@ def apply(simulation: Simulation, signal: str, value: float | str) -> None:
 def _input(simulation: Simulation, number: int, level: bool) -> None:
     unit, bit = simulation.unit, 1 << (number - 1)
     state = unit.state
+    if bool(state.inputs & bit) != level:
+        input_edge(unit, number, level)
     state.inputs = state.inputs | bit if level else state.inputs & ~bit
     unit.motion.set_input(number, level)
     unit.changed = True

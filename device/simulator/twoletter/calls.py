@@ -15,6 +15,7 @@ from codegen.twoletter.nodes import (
     Empty,
     Format,
     Query,
+    SegmentSpeed,
 )
 from codegen.twoletter.rows import Row, Takes
 from device.simulator.twoletter import behaviour
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 Op: TypeAlias = Callable[[Strand], int]
 
-PER_AXIS: Final = frozenset({Takes.AXIS_NUMBERS, Takes.ONE_AXIS_NUMBER})
+PER_AXIS: Final = frozenset({Takes.AXIS_NUMBERS, Takes.ONE_AXIS_NUMBER, Takes.SEGMENT_AXES, Takes.TABLE})
 LETTERS: Final = frozenset({Takes.AXES, Takes.AXES_S, Takes.AXES_OR_ONE, Takes.AXIS})
 
 
@@ -44,6 +45,7 @@ class Call:
     named: bool  # False: no letter was given
     sequence: bool  # S was given
     command: Command
+    speed: int | None = None  # `< n` behind a segment
 
     def value(self, place: int) -> int | None:
         """The number at a place, or None."""
@@ -84,18 +86,20 @@ def _refusal(row: Row | None, command: Command, unit: Unit, from_port: bool) -> 
         return 2
     if not from_port and not row.program:
         return 3
-    return _bad_axis(row, command, len(unit.model.axes))
+    return _bad_axis(row, command, unit)
 
 
-def _bad_axis(row: Row, command: Command, count: int) -> int:
+def _bad_axis(row: Row, command: Command, unit: Unit) -> int:
     """Error 90 for an axis that this model has not, 28 for S where there are no sequences."""
+    count = len(unit.model.axes)
     if command.axis is not None and AXES.index(command.axis) >= count:
         return 90
     if row.takes in PER_AXIS:
-        return 90 if any(not isinstance(argument, Empty | Format) for argument in command.arguments[count:]) else 0
+        more = [item for item in command.arguments if not isinstance(item, SegmentSpeed)][row.places_for(unit.model) :]
+        return 90 if any(not isinstance(argument, Empty | Format) for argument in more) else 0
     if row.takes in LETTERS:
         letters = "".join(argument.letters for argument in command.arguments if isinstance(argument, Axes))
-        if "S" in letters and row.takes is not Takes.AXES_S:
+        if "S" in letters and (row.takes is not Takes.AXES_S or not unit.model.coordinated):
             return 28
         return 90 if any(letter in AXES[count:] for letter in letters) else 0
     return 0
@@ -118,7 +122,7 @@ def refuse(code: int, unit: Unit, name: str) -> Op:
 
 def places(command: Command) -> list[Argument]:
     """The numbers of a command by place; the form PRX=5 puts its one number at the axis."""
-    found: list[Argument] = [item for item in command.arguments if not isinstance(item, Axes | Format)]
+    found: list[Argument] = [item for item in command.arguments if not isinstance(item, Axes | Format | SegmentSpeed)]
     if command.axis is not None:
         return [*([Empty()] * AXES.index(command.axis)), *found[:1]]
     return found
@@ -138,10 +142,14 @@ def caller(command: Command, row: Row, unit: Unit) -> Callable[[], Call]:
     sequence = "S" in letters
     getters = [_getter(argument) for argument in places(command)]
 
-    def build(values: tuple[int | None, ...]) -> Call:
-        return Call(command.name, row, values, axes, bool(letters), sequence, command)
+    speed = next((item.value for item in command.arguments if isinstance(item, SegmentSpeed)), None)
+    speed_value = None if speed is None else compile_expression(speed)
 
-    if all(not callable(getter) for getter in getters):
+    def build(values: tuple[int | None, ...]) -> Call:
+        limit = None if speed_value is None else speed_value(names)
+        return Call(command.name, row, values, axes, bool(letters), sequence, command, limit)
+
+    if speed is None and all(not callable(getter) for getter in getters):
         fixed = build(tuple(getter for getter in getters if not callable(getter)))
         return lambda: fixed
     return lambda: build(tuple(getter(names) if callable(getter) else getter for getter in getters))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from device.simulator.kernel import layout
 from device.simulator.motion import Motion
 
 
@@ -34,8 +33,7 @@ class Clock:
         ran = self.motion.run(due)
         self.tick += ran * self.period
         self.sample += ran
-        state = self.motion._state
-        return ran < due or state[layout.TRIPS] != 0.0 or state[layout.EVENTS] != 0.0
+        return ran < due or not self.motion.quiet()
 
     def catch_up(self, until: int) -> None:
         """Runs the motion up to `until` whatever happens on the way."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from codegen.twoletter.fixed import ONE
+from device.simulator.motion import Register
 from device.simulator.twoletter import burned
 from device.simulator.twoletter.behaviour import registers
 from device.simulator.twoletter.state import fresh
@@ -33,6 +34,9 @@ def begin(unit: Unit) -> None:
         uart.clear()
     motion = unit.motion
     motion.abort_all()
+    motion.cam.enable(False)
+    motion.contour.open(())
+    motion.path.clear()
     for axis in unit.axes():
         motion.motor_off(axis)
     unit.state.outputs = 0
@@ -74,6 +78,11 @@ def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
     state, motion = unit.state, unit.motion
     unit.set_sample_time(state.settings["TM"] // ONE)
     registers.put_all(unit)
+    kind = "none" if unit.model.family == "ssc" else "auxiliary"
+    for axis in unit.axes():
+        motion.set_gear_master(axis, kind, axis)
+        motion.set(axis, Register.GEAR_RATIO, 0.0)
+    motion.cam.master(0, auxiliary=unit.model.family != "ssc")
     motion.set_limit_polarity(state.switches[0] == 1)
     motion.set_outputs(state.outputs)
     for axis, on in enumerate(motors_on):

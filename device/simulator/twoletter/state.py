@@ -19,6 +19,14 @@ class CommandError(Exception):
         self.code = code
 
 
+class NotYet(Exception):
+    """A command of a program that must wait before it can be carried out."""
+
+    def __init__(self, wait: Wait) -> None:
+        super().__init__(wait.kind)
+        self.wait = wait
+
+
 @dataclass(slots=True)
 class Wait:
     """What a thread or a port waits for."""
@@ -101,6 +109,19 @@ class Download:
 
 
 @dataclass(slots=True)
+class Recording:
+    """RA, RD, RC: the channels, and how far the capture is."""
+
+    arrays: list[str] = field(default_factory=list)
+    sources: list[tuple[str, int]] = field(default_factory=list)  # operand, axis
+    interval: int = 0  # samples between elements; 0: not recording
+    sample: int = 0  # number of the sample that is taken next
+    index: int = 0
+    count: int = 0
+    circular: bool = False
+
+
+@dataclass(slots=True)
 class State:
     """The controller without its motion; the registers hold 1/65536 as all its numbers do."""
 
@@ -114,6 +135,13 @@ class State:
     comint_armed: bool = False
     comint_due: bool = False
     inputs: int = 255  # levels, bit 0 = input 1
+    gear_master: int = -1  # axis that is its own slaves' master, GA
+    contour_timed: bool = False  # DT has been given
+    cam_master: int = -1  # EA
+    cam_cycle: int = 0
+    cam_interval: list[int] = field(default_factory=lambda: [256, 0])  # EP
+    tangent: list[int] = field(default_factory=lambda: [0, 0])  # TN
+    recording: Recording = field(default_factory=Recording)
     analog: list[int] = field(default_factory=lambda: [0] * 8)  # 1/65536 V
     abort_input: bool = True
     outputs: int = 0

@@ -5,7 +5,8 @@ from __future__ import annotations
 from codegen.twoletter.evaluate import EvaluationError
 from device.simulator.times import COMMAND
 from device.simulator.twoletter import wire
-from device.simulator.twoletter.state import FOREVER, CommandError, Port, Strand, Thread, Wait
+from device.simulator.twoletter.behaviour import recording
+from device.simulator.twoletter.state import FOREVER, CommandError, NotYet, Port, Strand, Thread, Wait
 from device.simulator.twoletter.unit import Unit
 
 MC_TIMEOUT = 99  # stop code
@@ -65,6 +66,8 @@ class Interpreter:
         unit = self.unit
         state = unit.state
         due = state.reset_at if state.reset_at >= 0 else FOREVER
+        if state.recording.interval:
+            due = min(due, unit.clock.tick_of(state.recording.sample))
         for uart in unit.uarts:
             due = min(due, uart.due_in())
         for strand in state.strands():
@@ -83,6 +86,8 @@ class Interpreter:
             self._alarmed, unit.changed = True, False
         if 0 <= state.reset_at <= now:
             unit.finish_reset()
+        while state.recording.interval and unit.clock.tick_of(state.recording.sample) <= now:
+            recording.take(unit)
         for uart, port in zip(unit.uarts, state.ports, strict=True):
             uart.run(now)
             if uart.buffer or uart.overruns:
@@ -166,6 +171,10 @@ class Interpreter:
         except (CommandError, EvaluationError) as refusal:
             unit.fail(thread, refusal.code, thread.pc)
             at += COMMAND
+        except NotYet as pause:
+            thread.wait = pause.wait
+            unit.changed = True
+            at += COMMAND
         state.command_at, state.turn = at, thread.number
         self._stall(thread)
 
@@ -190,6 +199,9 @@ class Interpreter:
             thread.pc = unit.code.ops[pc](thread)
         except (CommandError, EvaluationError) as refusal:
             unit.fail(thread, refusal.code, pc)
+        except NotYet as pause:
+            thread.wait = pause.wait
+            unit.changed = True
         thread.traced = False
         self._stall(thread)
 

@@ -9,11 +9,14 @@ from codegen.twoletter.nodes import Command
 from device.simulator.twoletter.behaviour import (
     configuration,
     flow,
+    following,
     io,
     messages,
     motion,
     operator,
     programs,
+    recording,
+    sequences,
     status,
     system,
     trippoints,
@@ -36,6 +39,9 @@ DOES: Final[dict[str, Callable[[Unit, Strand, Call], None]]] = {
     **system.DOES,
     **programs.DOES,
     **operator.DOES,
+    **following.DOES,
+    **sequences.DOES,
+    **recording.DOES,
 }
 READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     **motion.READS,
@@ -43,9 +49,12 @@ READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     **io.READS,
     **status.READS,
     **configuration.READS,
+    **following.READS,
+    **sequences.READS,
+    **recording.READS,
 }
 ASKED: Final[dict[str, Callable[[Unit, int], int]]] = {}
-WAITS: Final = trippoints.WAITS
+WAITS: Final = {**trippoints.WAITS, **following.WAITS, **sequences.WAITS}
 COMPILES: Final[dict[str, Callable[[Command, int, Unit, Code | None], Op]]] = {
     **flow.COMPILES,
     **configuration.COMPILES,

@@ -6,21 +6,22 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import ONE
+from device.simulator.twoletter.behaviour.sequences import begin_sequence
 from device.simulator.twoletter.state import CommandError, Port, Strand
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
-MOTOR_OFF, ALREADY_MOVING, AT_LIMIT, NO_SEQUENCE, BAD_INCREMENT = 20, 21, 22, 24, 16
+MOTOR_OFF, ALREADY_MOVING, AT_LIMIT, BAD_INCREMENT, CONTOURING = 20, 21, 22, 16, 18
 
 
 def begin(unit: Unit, strand: Strand, call: Call) -> None:
     """BG: all named axes start, or none (inferred)."""
-    if call.sequence:
-        raise CommandError(NO_SEQUENCE)
     for axis in call.axes:
         _check_begin(unit, axis)
+    if call.sequence:
+        begin_sequence(unit)
     for axis in call.axes:
         _begin_axis(unit, axis)
 
@@ -31,6 +32,8 @@ def _check_begin(unit: Unit, axis: int) -> None:
         raise CommandError(MOTOR_OFF)
     if motion.moving(axis):
         raise CommandError(ALREADY_MOVING)
+    if motion.contour.has(axis):
+        raise CommandError(CONTOURING)
     direction = _direction(unit, axis)
     if direction and motion.blocked(axis, direction):
         raise CommandError(AT_LIMIT)
@@ -81,6 +84,8 @@ def _prepare(mode: str) -> Callable[[Unit, Strand, Call], None]:
 
 def stop(unit: Unit, strand: Strand, call: Call) -> None:
     """ST: the named axes; without letters all, and programs as the family does it (dmc-1412-1414.txt l.2814)."""
+    if call.sequence or not call.named:
+        unit.motion.path.stop()
     for axis in call.axes:
         unit.motion.stop(axis)
     if call.named:
@@ -165,8 +170,8 @@ def position_target(unit: Unit, axis: int) -> int:
 
 
 def axis_moving(unit: Unit, axis: int) -> int:
-    """_BG; S never moves, coordinated motion being left out."""
-    return ONE if axis >= 0 and unit.motion.moving(axis) else 0
+    """_BG; S is the coordinated sequence."""
+    return ONE if (unit.motion.moving(axis) if axis >= 0 else unit.motion.path.moving) else 0
 
 
 def _counts(read: str) -> Callable[[Unit, int], int]:

@@ -57,6 +57,15 @@ def _look(unit: Unit, axis: int, value: int) -> None:
     unit.changed = True
 
 
+def _path(setter: str) -> Store:
+    """A parameter of coordinated motion."""
+
+    def follow(unit: Unit, axis: int, value: int) -> None:
+        getattr(unit.motion.path, setter)(value / ONE)
+
+    return Store(per_axis=False, apply=follow)
+
+
 STORES: Final[dict[str, Store]] = {
     "PA": _mode("PA"),
     "PR": _mode("PR"),
@@ -83,6 +92,11 @@ STORES: Final[dict[str, Store]] = {
     "DV": _follow(Register.DUAL_LOOP),
     "AF": _follow(Register.ANALOG_FEEDBACK),
     "TW": Store(),
+    "VS": _path("set_speed"),
+    "VA": _path("set_acceleration"),
+    "VD": _path("set_deceleration"),
+    "VR": _path("set_ratio"),
+    "VT": _path("set_smoothing"),
     "TM": Store(per_axis=False, apply=_sample_time),
     "LZ": Store(per_axis=False),
     "EO": Store(per_axis=False),
@@ -93,6 +107,7 @@ STORES: Final[dict[str, Store]] = {
     "CW1": Store(per_axis=False),  # the two fields of CW
     "CW2": Store(per_axis=False),
 }
+PATH: Final = frozenset({"VS", "VA", "VD", "VR", "VT"})
 FIELDS: Final = {"CW1": 2, "CW2": 0}  # defaults of what is no row of its own
 
 
@@ -111,6 +126,8 @@ def load_defaults(state: State, model: Model) -> None:
             state.registers[name] = [default(name)] * len(model.axes)
         else:
             state.settings[name] = default(name)
+    state.registers["EM"] = [0] * len(model.axes)
+    state.settings["DT"] = 0
     for name in ("GN", "ZR"):
         state.registers[name] = [default(name)] * len(model.axes)
     state.registers["IP"] = [0] * len(model.axes)
@@ -170,3 +187,5 @@ def put_all(unit: Unit) -> None:
         if entry.register is not None:
             for axis, value in enumerate(unit.state.registers[name]):
                 unit.motion.set(axis, entry.register, value / ONE)
+        elif name in PATH and entry.apply is not None:
+            entry.apply(unit, 0, unit.state.settings[name])

@@ -16,11 +16,12 @@ if TYPE_CHECKING:
 Waits: TypeAlias = Callable[["Unit", Strand, "Call"], Wait | None]
 
 
-def _by_axis(name: str, kind: Watch) -> Waits:
-    """Trippoints that name axes; several axes must all have tripped."""
+def _by_axis(name: str, kind: Watch, sequence: Watch) -> Waits:
+    """Trippoints that name axes or S; several must all have tripped."""
 
     def wait(unit: Unit, strand: Strand, call: Call) -> Wait | None:
-        return _watch(unit, name, [(kind, axis, 0.0) for axis in call.axes])
+        wanted = [(kind, axis, 0.0) for axis in call.axes]
+        return _watch(unit, name, [*wanted, (sequence, 0, 0.0)] if call.sequence else wanted)
 
     return wait
 
@@ -108,8 +109,8 @@ def input_changed(unit: Unit, wait: Wait) -> None:
 
 
 WAITS: Final[dict[str, Waits]] = {
-    "AM": _by_axis("AM", Watch.AFTER_MOVE),
-    "AS": _by_axis("AS", Watch.AT_SPEED),
+    "AM": _by_axis("AM", Watch.AFTER_MOVE, Watch.PATH_DONE),
+    "AS": _by_axis("AS", Watch.AT_SPEED, Watch.PATH_SPEED),
     "MC": _in_position,
     "AD": _by_number("AD", Watch.AFTER_DISTANCE),
     "AR": _by_number("AR", Watch.AFTER_RELATIVE),
