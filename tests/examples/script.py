@@ -212,7 +212,9 @@ class Player:
         """Does one step."""
         if word.endswith("plant"):
             values = dict(pair.split("=") for pair in rest.split())
-            self.plants[(word[0] if word != "plant" else "x").upper()] = {key: typed(text) for key, text in values.items()}
+            self.plants[(word[0] if word != "plant" else "x").upper()] = {
+                key: typed(text) for key, text in values.items()
+            }
             return
         if word == "program":
             self.bench.simulation.load_program("\n".join(block))
