@@ -12,18 +12,23 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from codegen.document import Document
-from codegen.expressions import NAME, Bad, names, parse_expression
+from codegen.drift import drift
 from codegen.fields import SYSTEM_LABELS, Choice, fields_of
 from codegen.instructions import End, Instruction, Jump, Label, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
+from codegen.numbers import parse_number
 from codegen.program import Section, Step, assigned, is_closed, program_label
 from codegen.read import needed, problems
 from codegen.setup import Finding, Setup
 from codegen.twoletter.calls import BODY, Call
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.emit import statements
 from codegen.twoletter.emit.build import FIRST_NUMBER, Build
+from codegen.twoletter.fixed import scaled
+from codegen.twoletter.nodes import Command
 from codegen.twoletter.nodes import Label as LabelNode
 from codegen.twoletter.parse import parse
+from codegen.twoletter.rows import Takes
 
 END_OF = {
     Routine.USER: EndOf.SUBROUTINE,
@@ -121,6 +126,8 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
     if long is not None:
         message = f"This becomes a line of {len(long)} characters; the controller takes {limit}"
         errors = (Finding("", message),)
+    elif refusal := next(filter(None, (refused(each, setup) for each in made if isinstance(each, Call))), None):
+        errors = (Finding("", refusal),)
     split = made.index(BODY) if BODY in made else len(made)
     arrays = tuple(each.arguments.split("[")[0] for each in made if isinstance(each, Call) and each.name == "DM")
     return Compiled(
@@ -133,8 +140,24 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
         assigned(instruction),
         errors,
         warnings,
-        bool(errors or warnings or defines or target or arrays or isinstance(instruction, LoopRate)),
+        bool(errors or warnings or defines or target or arrays or isinstance(instruction, LoopRate | TwoLetterCode)),
     )
+
+
+def refused(call: Call, setup: Setup) -> str | None:
+    """Why this controller model cannot take a call that is right in itself."""
+    row, limits = COMMANDS[call.name], setup.limits
+    if not row.known_to(limits):
+        return f"The {limits.title} has no {row.title.lower()} ({call.name})"
+    if row.takes is Takes.AXES_S and call.arguments == "S" and not limits.coordinated:
+        return f"The {limits.title} has no coordinated motion"
+    if row.takes is not Takes.NUMBERS or row.fields:
+        return None
+    value = parse_number(call.arguments)
+    if value is None or row.accepts(scaled(value), limits):
+        return None
+    low, high = row.range_for(limits)
+    return f"{row.title} must lie between {low:g} and {high:g} on the {limits.title}"
 
 
 def _labels(instruction: Instruction) -> tuple[tuple[str, ...], str]:
@@ -231,6 +254,8 @@ class _Pass:
         if made.noteworthy:
             self.remember(step, made, section)
         numbers = [self.next_number() for _ in range(made.numbers)] if made.numbers else None
+        if step.body and (text := drift(step, self.setup)):
+            self.problems.append(Finding("", text, "warning", "", step.id))
         self.add(made.before, step.id, numbers)
         if step.body:
             self.walk(step.body, section)
@@ -263,6 +288,9 @@ class _Pass:
             if self.first_array < 0:
                 self.first_array = len(self.lines)
             self.arrays += made.arrays
+        if isinstance(step.instruction, TwoLetterCode) and _sets_loop_rate(step.instruction):
+            text = "The loop rate set here does not rescale the other instructions; use Loop Rate"
+            self.problems.append(Finding("text", text, "warning", "", step.id))
         if section is not Section.CONFIGURATION and isinstance(step.instruction, LoopRate):
             text = "Loop Rate belongs to the configuration: speeds and waits of the whole program depend on it"
             self.problems.append(Finding("", text, "error", "", step.id))
@@ -305,6 +333,10 @@ class _Pass:
         for label, step in self.jumps:
             if label not in self.defined and label not in SYSTEM_LABELS:
                 self.problems.append(Finding("target", f"There is no label {label}", "error", "", step))
+
+
+def _sets_loop_rate(code: TwoLetterCode) -> bool:
+    return any(isinstance(node, Command) and node.name == "TM" for _, node in parse(code.text).statements())
 
 
 def _words(end: EndOf) -> str:
@@ -358,15 +390,3 @@ def _joined(group: list[Line]) -> Line:
         spans.append((start, start + len(text), step))
         start += len(text) + 1
     return Line(";".join([line[0] for line in group]), group[0].step, "", tuple(spans))
-
-
-def used_names(document: Document) -> frozenset[str]:
-    """Variables and arrays that the expressions of the program read."""
-    found: set[str] = set()
-    for step in document.program.steps():
-        for field in dc.fields(step.instruction):
-            text = getattr(step.instruction, field.name)
-            if isinstance(text, str) and text and not NAME.match(text):
-                tree = parse_expression(text)
-                found.update(() if isinstance(tree, Bad) else names(tree))
-    return frozenset(found)

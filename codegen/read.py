@@ -323,6 +323,8 @@ def _problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
         found.insert(0, Finding(*own))
     elif reason := cannot(type(instruction), setup):
         found.insert(0, Finding("", reason))
+    elif advice := instruction.own_warning(setup):
+        found.append(Finding(*advice, "warning"))
     return tuple(found)
 
 

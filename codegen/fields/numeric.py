@@ -51,7 +51,7 @@ def value_of(text: str) -> Fraction | Expression | Bad:
 def value_text(text: str) -> str:
     value = value_of(text)
     if isinstance(value, Fraction):
-        return plain(value)
+        return text.strip() if "$" in text else plain(value)
     return text.strip() if isinstance(value, Bad) else write(value)
 
 
@@ -64,6 +64,7 @@ class Quantity(Field):
     positive: bool = False  # must be above zero
     signed: bool = False  # a speed that may be negative
     literal: bool = False  # no expressions
+    most_counts: int = 0  # most the controller takes, as it is sent; 0 = no such limit
     warns: ClassVar[bool] = True
 
     def wrong(self, value: str, context: Context) -> str | None:
@@ -84,7 +85,11 @@ class Quantity(Field):
         if self.signed:
             low = -high
         if low <= number <= high:
-            too_small = self.positive and context.setup.counts(self.dimension, context.axis, number) == 0
+            sent = context.setup.counts(self.dimension, context.axis, number)
+            if self.most_counts and sent > self.most_counts:
+                most = context.setup.from_counts(self.dimension, context.axis, self.most_counts)
+                return f"{self.label} must be at most {_bound(Fraction(int(most)))}{behind}"
+            too_small = self.positive and sent == 0
             return f"{self.label} is too small: it would be sent as 0" if too_small else None
         return f"{self.label} must lie between {_bound(low)} and {_bound(high)}{behind}"
 

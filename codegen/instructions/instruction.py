@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import dataclasses as dc
 from enum import StrEnum
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
+
+if TYPE_CHECKING:
+    from codegen.setup import Setup
 
 
 class Group(StrEnum):
@@ -45,4 +48,8 @@ class Instruction:
 
     def own_problem(self) -> tuple[str, str] | None:
         """A contradiction between the fields: (field, sentence)."""
+        return None
+
+    def own_warning(self, setup: Setup) -> tuple[str, str] | None:
+        """Advice about the values: (field, sentence)."""
         return None

@@ -22,6 +22,8 @@ from codegen.fields import (
 )
 from codegen.instructions.configuration import ACCELERATION, DECELERATION, SPEED
 from codegen.instructions.instruction import Group, Instruction
+from codegen.numbers import parse_number
+from codegen.setup import Setup
 
 
 class MoveMode(StrEnum):
@@ -164,6 +166,7 @@ class SingleAxisMove(Instruction):
         Quantity(
             label="At most",
             dimension=Dimension.TIME,
+            most_counts=32767,
             axis="",
             literal=True,
             required=False,
@@ -284,6 +287,9 @@ class StopMotion(Instruction):
         return cls()
 
 
+INDEX_SPEED = 500  # counts/s; ssc-tol-o-motion.txt, Find Index
+
+
 class Homing(StrEnum):
     SWITCH = "switch"
     EDGE = "edge"
@@ -374,6 +380,18 @@ class Home(Instruction):
             for letter, text in zip("XYZW", self.speed, strict=True):
                 if letter in self.axes and not text:
                     return "speed", f"{letter}: Speed is missing (the index search needs it for its direction)"
+        return None
+
+    def own_warning(self, setup: Setup) -> tuple[str, str] | None:
+        for letter, text in zip("XYZW", self.speed, strict=True):
+            number = parse_number(text)
+            if self.routine is Homing.INDEX and number is not None:
+                counts = setup.counts(Dimension.SPEED, letter, number)
+                if counts > INDEX_SPEED:
+                    return (
+                        "speed",
+                        f"{letter}: {counts} counts/s may run past the index; {INDEX_SPEED} or less is advised",
+                    )
         return None
 
     @classmethod

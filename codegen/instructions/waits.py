@@ -215,6 +215,7 @@ class WaitForCondition(Instruction):
         Quantity(
             label="At most",
             dimension=Dimension.TIME,
+            most_counts=32767,
             axis="",
             literal=True,
             required=False,

@@ -1,0 +1,348 @@
+"""Sentences, problems, counts and warnings of single fields; other scales; the second language."""
+
+from __future__ import annotations
+
+# ruff: noqa: E501  (tables: one case a line)
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from codegen import smartmotor
+from codegen.docs import pages
+from codegen.document import Document
+from codegen.drift import drift
+from codegen.fields import AXES, Dimension
+from codegen.generate import code, compiled, generate
+from codegen.instructions import (
+    ALL,
+    AccelDecel,
+    BeginMotion,
+    End,
+    Home,
+    Instruction,
+    Jump,
+    LoopRate,
+    MotionParameters,
+    Output,
+    Print,
+    Repeat,
+    SingleAxisMove,
+    StopMotion,
+    Subroutine,
+    TwoLetterCode,
+    UserInterface,
+    VariableArray,
+    Wait,
+    WaitForCondition,
+)
+from codegen.instructions.configuration import Declare, ValueKind
+from codegen.instructions.flow import EndOf, JumpIf, JumpKind, RepeatMode, Routine
+from codegen.instructions.io import OutputMode
+from codegen.instructions.motion import Beginning, Direction, Homing, MoveMode, WaitFor, Which
+from codegen.instructions.operator import AnswerKind, ItemKind, Port, PrintItem, Shape
+from codegen.instructions.waits import Clock, Finished, Moving, Place, WaitKind
+from codegen.models import MODELS
+from codegen.program import Program, Step
+from codegen.read import counts_text, has_errors, problem_of, problems, sentence, shown, unit_text, warning_of
+from codegen.rescale import scaled_text, with_setup
+from codegen.setup import Axis, MotorType, Setup, Unit
+from codegen.twoletter.nodes import Broken, Foreign
+from codegen.twoletter.parse import parse_line
+from tests.codegen.strategies import instructions, programs
+
+MM = Axis(unit=Unit.MM, counts_per_unit="1000", forward_limit="200", reverse_limit="0", maximum_speed="100")
+SETUP = Setup(
+    model="ssc4",
+    axes=(Axis(counts_per_unit="4000"), MM, Axis(motor=MotorType.STEPPER_LOW, counts_per_unit="200"), Axis()),
+    input_names=("", "", "Door", *[""] * 5),
+    output_names=("Clamp", *[""] * 7),
+)
+
+
+@pytest.mark.parametrize(
+    ("instruction", "said", "sent"),
+    [
+        (SingleAxisMove(distance="4", speed="2"), "Move X by 4 in at 2 in/s, then wait until the profile has ended", "PR 16000/SP 8000/BG X/AM X"),
+        (
+            SingleAxisMove(axis="Y", mode=MoveMode.TO, position="12.5", speed="20", wait=WaitFor.POSITION, time_out="500"),
+            "Move Y to 12.5 mm at 20 mm/s, then wait until in position, at most 500 ms",
+            "PA ,12500/SP ,20000/BG Y/TW ,500/MC Y",
+        ),
+        (SingleAxisMove(mode=MoveMode.AT, jog_speed="-3"), "Run X at -3 in/s", "JG -12000/BG X"),
+        (
+            SingleAxisMove(distance="1", acceleration="64", deceleration="128", smoothing="128", wait=WaitFor.NOTHING),
+            "Move X by 1 in, accelerating at 64 in/s², decelerating at 128 in/s², smoothing 128",
+            "PR 4000/AC 256000/DC 512000/IT 0.5/BG X",
+        ),
+        (SingleAxisMove(axis="Z", distance="1", smoothing="2", begin=False), "Move Z by 1 in, smoothing 2, prepared but not begun", "PR ,,200/KS ,,2"),
+        (SingleAxisMove(distance="1", smoothing="255"), "Move X by 1 in, smoothing 255, then wait until the profile has ended", "PR 4000/IT 0.004/BG X/AM X"),
+        (SingleAxisMove(distance="LEN*2"), "Move X by (LEN*2) in, then wait until the profile has ended", "PR LEN*2*4000/BG X/AM X"),
+        (AccelDecel(acceleration=("64", "", "", "")), "Accelerate X at 64 in/s²", "AC 256000"),
+        (
+            AccelDecel(acceleration=("64", "512", "", ""), deceleration=("64", "", "", "")),
+            "Accelerate X at 64 in/s², decelerate at 64 in/s²; accelerate Y at 512 mm/s²",
+            "AC 256000,512000/DC 256000",
+        ),
+        (MotionParameters(speed=("2", "", "", "2")), "Set X and W to 2 in/s", "SP 8000,,,2"),
+        (BeginMotion(axes="XZ"), "Begin motion of X and Z", "BG XZ"),
+        (BeginMotion(which=Beginning.PATH), "Begin the path", "BG S"),
+        (StopMotion(axes="XYZ"), "Stop X, Y and Z, then wait until it has stopped", "ST XYZ/AM XYZ"),
+        (StopMotion(which=Which.MOTION, wait=False), "Stop all motion", "ST XYZWS"),
+        (StopMotion(which=Which.EVERYTHING), "Stop all motion and the program", "ST"),
+        (Home(axes="X", speed=("1", "", "", "")), "Find home of X (X at 1 in/s), then wait until it has ended", "SP 4000/HM X/BG X/AM X"),
+        (
+            Home(routine=Homing.INDEX, direction=Direction.REVERSE, speed=("0.1", "", "", ""), wait=False),
+            "Find the index of X going backward (X at 0.1 in/s)",
+            "JG -400/FI X/BG X",
+        ),
+        (Home(routine=Homing.EDGE, axes="XY", begin=False), "Find the edge of the home switch of X and Y, prepared but not begun", "FE XY"),
+        (Output(output="Clamp"), "Turn output 1 (Clamp) on", "SB 1"),
+        (Output(mode=OutputMode.CONDITION, output="2", condition="A>5"), "Turn output 2 on when A>5, else off", "OB 2,A>5"),
+        (Output(mode=OutputMode.PORT, byte="$0F"), "Send $0F to the output port", "OP $0F"),
+        (Wait(time="T"), "Wait T ms", "WT T"),
+        (Wait(time="T*2", exactly=True), "Wait (T*2) ms", "WT (T*2*128)/125"),
+        (Jump(target="A", kind=JumpKind.CALL), "Call A", "JS #A"),
+        (Jump(target="A", when=JumpIf.INPUT, input="Door"), "Go to A if input 3 (Door) is high", "JP #A,@IN[3]=1"),
+        (Jump(target="A", when=JumpIf.CONDITION, condition="(A<B)&(C<D)"), "Go to A if (A<B)&(C<D)", "JP #A,(A<B)&(C<D)"),
+        (Subroutine(routine=Routine.LIMSWI), "Subroutine LIMSWI (when a limit switch is reached)", "#LIMSWI"),
+        (End(of=EndOf.ERROR, keep=True), "End of error or limit subroutine, go on with an interrupted wait", "RE 1"),
+        (End(of=EndOf.COMMUNICATION, restore=True), "End of communication interrupt, enable the interrupt again", "EN 0,1"),
+        (Repeat(mode=RepeatMode.UNTIL, until="A>5"), "Repeat until A>5", "#R1/JP #R1,(A>5)=0"),
+        (VariableArray(variable="NAME", holds=ValueKind.TEXT, text="ABC"), 'Variable NAME = "ABC"', 'NAME="ABC"'),
+        (VariableArray(mode=Declare.ARRAY, array="POS", size="50"), "Array POS with 50 elements", "DM POS[50]"),
+        (VariableArray(mode=Declare.FORMAT, digits="4", decimals="2", hexadecimal=True), "Show variables with 4 digits and 2 decimals, hexadecimal", "VF -4.2"),
+        (VariableArray(mode=Declare.FREE, freed="POS"), "Free array POS", "DA POS[]"),
+        (
+            Print(
+                port=Port.AUXILIARY,
+                items=(PrintItem(text="V="), PrintItem(kind=ItemKind.VALUE, expression="V", shape=Shape.DECIMAL, digits="4", decimals="2")),
+                same_line=True,
+            ),
+            'Print "V="; V on the auxiliary port, without a line end',
+            'MG {P2}"V=",V{F4.2}{N}',
+        ),
+        (Print(items=(PrintItem(kind=ItemKind.CHARACTER, character="7"),)), "Print character 7", "MG {^7}"),
+        (
+            UserInterface(port=Port.AUXILIARY, prompt="Name", variable="N", answer=AnswerKind.TEXT),
+            'Ask "Name" on the auxiliary port and keep the answer in N (6 characters)',
+            'IN {P2}"Name",N{S6}',
+        ),
+        (WaitForCondition(axes=""), "Wait until all motion has ended", "AM"),
+        (WaitForCondition(axes="XY"), "Wait until the motion of X and Y has ended", "AM XY"),
+        (WaitForCondition(moving=Moving.PATH), "Wait until the path has ended", "AM S"),
+        (WaitForCondition(finished=Finished.POSITION, time_out="200"), "Wait until the motion of X is in position, at most 200 ms", "TW 200/MC X"),
+        (WaitForCondition(kind=WaitKind.SPEED, speed_axis="Y"), "Wait until Y is at speed", "AS Y"),
+        (WaitForCondition(kind=WaitKind.SPEED, moving=Moving.PATH), "Wait until the path is at speed", "AS S"),
+        (WaitForCondition(kind=WaitKind.CLOCK), "Start the clock", "AT 0"),
+        (
+            WaitForCondition(kind=WaitKind.CLOCK, clock=Clock.AFTER, time="40"),
+            "Wait until the clock shows 40 ms (40 samples = 39.1 ms)",
+            "AT 40",
+        ),
+        (
+            WaitForCondition(kind=WaitKind.CLOCK, clock=Clock.AGAIN, time="40"),
+            "Wait until the clock shows and start it again at 40 ms (40 samples = 39.1 ms)",
+            "AT -40",
+        ),
+        (WaitForCondition(kind=WaitKind.POSITION, position="1"), "Wait until X passes 1 in", "AP 4000"),
+        (WaitForCondition(kind=WaitKind.POSITION, place=Place.FORWARD, axis="Y", position="10"), "Wait until Y has gone forward to 10 mm", "MF ,10000"),
+        (WaitForCondition(kind=WaitKind.POSITION, place=Place.START, distance="-1"), "Wait until X has gone -1 in from the start of the move", "AD 4000"),
+        (WaitForCondition(kind=WaitKind.POSITION, place=Place.LAST, distance="1"), "Wait until X has gone 1 in from the last distance wait", "AR 4000"),
+        (WaitForCondition(kind=WaitKind.POSITION, place=Place.PATH, path="2"), "Wait until the path has gone 2 in since the start or the last such wait", "AV 8000"),
+        (WaitForCondition(kind=WaitKind.INPUT, input="Door"), "Wait until input 3 (Door) is high", "AI 3"),
+    ],
+)  # fmt: skip
+def test_sentence_and_code(instruction: Instruction, said: str, sent: str | None) -> None:
+    assert sentence(instruction, SETUP) == said
+    if sent is not None:
+        assert "/".join(code(instruction, SETUP)) == sent, problems(instruction, SETUP)
+
+
+@pytest.mark.parametrize(
+    ("instruction", "field", "message"),
+    [
+        (SingleAxisMove(distance="12,5"), "distance", "Distance: write 12.5"),
+        (SingleAxisMove(distance="A+B*2"), "distance", "Distance: group it with brackets: (A+B)*2 or A+(B*2)"),
+        (SingleAxisMove(axis="Y", distance="500"), "distance", "Distance must lie between -200 and 200 mm"),
+        (SingleAxisMove(axis="Y", mode=MoveMode.TO, position="-1"), "position", "Position must lie between 0 and 200 mm"),
+        (SingleAxisMove(axis="Y", distance="1", speed="101"), "speed", "Speed must lie between 0 and 100 mm/s"),
+        (SingleAxisMove(distance="1", speed="0"), "speed", "Speed must be more than 0 in/s"),
+        (SingleAxisMove(distance="1", speed="0.0001"), "speed", "Speed is too small: it would be sent as 0"),
+        (SingleAxisMove(axis="Y", mode=MoveMode.AT, jog_speed="-101"), "jog_speed", "Speed must lie between -100 and 100 mm/s"),
+        (SingleAxisMove(distance="1", wait=WaitFor.POSITION, time_out="40000"), "time_out", "At most must be at most 32767 ms"),
+        (SingleAxisMove(axis="Z", distance="1", smoothing="9"), "smoothing", "Smoothing of a stepper must lie between 0.5 and 8"),
+        (Output(output="9"), "output", "Output must lie between 1 and 8"),
+        (Output(output="Gate"), "output", "Output: 'Gate' is neither a number nor a name of the setup"),
+        (Wait(), "time", "Time is missing"),
+        (Jump(target="lower"), "target", "Label must be a letter and up to 6 letters or digits, in capitals"),
+        (VariableArray(variable="SP"), "variable", "Variable: SP is a command of the controller; choose another name"),
+        (VariableArray(variable="TIME"), "variable", "Variable must be a letter and up to 7 letters or digits"),
+        (VariableArray(mode=Declare.ARRAY, array="pos"), "array", "Array must begin with a capital letter"),
+        (Home(axes="X", speed=("1", "2", "", "")), "speed", "Y has a speed but is not among the axes"),
+        (Home(routine=Homing.INDEX), "speed", "X: Speed is missing (the index search needs it for its direction)"),
+        (AccelDecel(), "acceleration", "Enter an acceleration or a deceleration for an axis"),
+        (Print(items=(PrintItem(text='say "hi"'),)), "items", 'Items, row 1: Text: the controller cannot send "'),
+        (TwoLetterCode(text="PR 1000\nqq 5"), "text", None),
+        (TwoLetterCode(text="A" * 81), "text", "longer than the 80 characters of this controller"),
+    ],
+)  # fmt: skip
+def test_problems(instruction: Instruction, field: str, message: str | None) -> None:
+    (finding,) = problems(instruction, SETUP)
+    assert finding.field == field and finding.severity == "error"
+    if message is not None:
+        assert finding.message == message
+    assert code(instruction, SETUP) == ()
+
+
+def test_hidden_fields_do_not_count() -> None:
+    move = SingleAxisMove(distance="1", position="nonsense!", mode=MoveMode.BY)
+    assert not shown(move, "position") and problem_of(move, "position", SETUP) is None
+    assert problems(move, SETUP) == ()
+
+
+def test_counts_and_warnings() -> None:
+    move = SingleAxisMove(distance="0.0007", speed="5")
+    assert counts_text(move, "distance", SETUP) == "3 counts"
+    assert warning_of(move, "distance", SETUP) == "Distance will really be 0.00075 in"
+    assert counts_text(move, "speed", SETUP) == "20000 counts/s" and warning_of(move, "speed", SETUP) is None
+    assert counts_text(SingleAxisMove(distance="LEN"), "distance", SETUP) == "LEN × 4000"
+    ramps = AccelDecel(acceleration=("", "40", "", ""))
+    assert counts_text(ramps, "acceleration", SETUP, "Y") == "39936 counts/s²"
+    assert warning_of(ramps, "acceleration", SETUP, "Y") == "Acceleration will really be 39.936 mm/s²"
+    assert unit_text(ramps, "acceleration", SETUP, "Y") == "mm/s²" and unit_text(move, "speed", SETUP) == "in/s"
+    assert [finding.severity for finding in problems(ramps, SETUP)] == ["warning"]
+
+
+def test_a_fast_index_search_is_advised_against() -> None:
+    (finding,) = problems(Home(routine=Homing.INDEX, speed=("1", "", "", "")), SETUP)
+    assert finding.severity == "warning" and "500 or less is advised" in finding.message
+
+
+def test_what_a_model_cannot_do() -> None:
+    small = Setup(model="dmc1412", axes=SETUP.axes)
+    assert [finding.message for finding in compiled(BeginMotion(which=Beginning.PATH), small).errors]
+    assert [
+        finding.message
+        for finding in compiled(WaitForCondition(kind=WaitKind.POSITION, place=Place.PATH, path="1"), small).errors
+    ]
+    assert (
+        compiled(Output(mode=OutputMode.PORT, byte="200"), small).errors
+        and not compiled(Output(mode=OutputMode.PORT, byte="7"), small).errors
+    )
+    assert compiled(LoopRate(period="250"), SETUP).errors and not compiled(LoopRate(period="250"), small).errors
+    assert code(StopMotion(which=Which.EVERYTHING), small) == ("ST", "HX")
+
+
+@given(
+    instructions(),
+    st.sampled_from([name for name, model in MODELS.items() if model.family != "smartmotor"]),
+    st.sampled_from(["1", "637", "39.37", "0.01", "5000000"]),
+    st.sampled_from(["1000", "500", "375", "20000"]),
+    st.sampled_from(list(MotorType)),
+)
+def test_any_instruction_on_any_machine(
+    instruction: Instruction, model: str, scale: str, period: str, motor: MotorType
+) -> None:
+    """Code or a problem, never a crash; and the code is what the controller's parser accepts."""
+    axis = Axis(counts_per_unit=scale, motor=motor)
+    setup = Setup(model=model, axes=(axis,) * 4, sample_us=period)
+    made = compiled(instruction, setup)
+    assert "\n" not in sentence(instruction, setup)
+    if made.errors:
+        assert code(instruction, setup) == ()
+        return
+    assert not has_errors(instruction, setup)
+    for line in code(instruction, setup):
+        assert len(line) <= setup.limits.columns
+        assert not any(isinstance(node, Broken | Foreign) for node in parse_line(line).statements), line
+
+
+# ------------------------------------------------------------------ other scales
+
+
+def test_keeping_counts_rewrites_numbers() -> None:
+    """The same machine in mm instead of inches: 25.4 times fewer counts per unit, the same code."""
+    inch = Setup(model="ssc1").with_axis("X", Axis(counts_per_unit="2540", forward_limit="10"))
+    millimetre = Setup(model="ssc1").with_axis("X", Axis(unit=Unit.MM, counts_per_unit="100", forward_limit="10"))
+    steps = (
+        Step("a", SingleAxisMove(distance="4", speed="2")),
+        Step("b", Repeat(count="3"), body=(Step("c", SingleAxisMove(distance="LEN+_TPX")),)),
+        Step("d", AccelDecel(acceleration=("100", "", "", ""))),
+    )
+    old = Document(Program("P", main=steps), inch)
+    new = with_setup(old, millimetre, "counts")
+    assert new.program.main[0].instruction == SingleAxisMove(distance="101.6", speed="50.8")
+    assert new.setup.axis("X").forward_limit == "254"
+    lines, before = generate(new).text.split("\n"), generate(old).text.split("\n")
+    assert [line for line in lines if "LEN" not in line] == [line for line in before if "LEN" not in line]
+    assert "PR (LEN*25.4*100)+_TPX" in lines and "PR (LEN*2540)+_TPX" in before
+    assert with_setup(old, millimetre, "units").program is old.program
+
+
+@given(programs(), st.sampled_from(["2", "0.5", "25.4"]))
+def test_keeping_counts_keeps_the_code_of_plain_numbers(program: Program, ratio: str) -> None:
+    old = Setup(model="ssc4", axes=(Axis(counts_per_unit="1000"),) * 4)
+    scale = str(Fraction(1000) / Fraction(ratio)) if Fraction(1000) % Fraction(ratio) == 0 else "1000"
+    new = Setup(model="ssc4", axes=(Axis(counts_per_unit=scale),) * 4)
+    document = Document(program, old)
+    moved = with_setup(document, new, "counts")
+    for one, other in zip(document.program.steps(), moved.program.steps(), strict=True):
+        if not compiled(one.instruction, old).errors and not any(
+            name in repr(one.instruction) for name in ("LEN", "A", "_", "POS")
+        ):
+            assert code(other.instruction, new) == code(one.instruction, old)
+
+
+def test_scaled_texts() -> None:
+    two = Fraction(2)
+    assert [scaled_text(text, two) for text in ("", "4", "LEN", "_TPX", "12,5")] == ["", "8", "LEN*2", "_TPX", "12,5"]
+
+
+# -------------------------------------------------------------------------- drift
+
+
+def loop(count: str, *distances: str) -> Step:
+    body = tuple(Step(f"m{place}", SingleAxisMove(axis="Y", distance=each)) for place, each in enumerate(distances))
+    return Step("r", Repeat(count=count), body=body)
+
+
+def test_drift_over_loops() -> None:
+    """0.0016 mm too far in each of 1000 turns are 1.6 mm (safety.md, 6): here 0.3 counts are lost each time."""
+    setup = SETUP.with_axis("Y", Axis(unit=Unit.MM, counts_per_unit="100"))
+    assert drift(loop("1000", "0.003"), setup) == "This repeat drifts: Y by -3 mm in 1000 turns"
+    assert drift(loop("1000", "0.0116"), setup) == "This repeat drifts: Y by -1.6 mm in 1000 turns"
+    assert drift(loop("1000", "0.003", "-0.003"), setup) is None
+    assert drift(loop("1000", "0.25"), setup) is None
+    inside = Step("o", Repeat(count="10"), body=(loop("100", "0.003"),))
+    assert drift(inside, setup) == "This repeat drifts: Y by -3 mm in 10 turns"
+
+
+def test_an_absolute_move_ends_the_drift() -> None:
+    body = (*loop("1", "0.003").body, Step("p", SingleAxisMove(axis="Y", mode=MoveMode.TO, position="0")))
+    setup = SETUP.with_axis("Y", Axis(counts_per_unit="100"))
+    assert drift(Step("r", Repeat(count="1000"), body=body), setup) is None
+
+
+# ------------------------------------------------------------- the second language
+
+
+def test_smartmotor() -> None:
+    """smartmotor-4.76.txt: a speed is counts/sample × 65536, a sample 245.76 µs; 2000 counts are a turn."""
+    setup = Setup(model="smartmotor").with_axis("X", Axis(unit=Unit.OWN, unit_name="turns", counts_per_unit="2000"))
+    lines = smartmotor.lines(SingleAxisMove(distance="10", speed="1", acceleration="25"), setup)
+    speed = round(2000 * 245.76e-6 * 65536)
+    acceleration = round(25 * 2000 * 245.76e-6**2 * 65536)
+    assert lines == (f"A={acceleration}", "MP", f"V={speed}", "D=20000", "G", "TWAIT")
+    assert abs(speed - 32212.578) < 1 and abs(acceleration - 25 * 7.9166433) < 1  # spec/smartmotor.md, 4
+    assert smartmotor.lines(StopMotion(), setup) == ("X", "TWAIT")
+
+
+def test_help_pages_are_complete(approve: bool) -> None:
+    assert list(pages()) == [kind.title for kind in ALL]
+    assert all("## Example" in text and "None" not in text for text in pages().values())
+
+
+def test_own_dimension_of_axes() -> None:
+    assert all(SETUP.factor(Dimension.TIME, letter) == 1 for letter in AXES)
