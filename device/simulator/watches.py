@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from enum import Enum, auto
 
 from device.simulator.kernel import layout
@@ -32,40 +33,53 @@ class Watch(Enum):
     PATH_DISTANCE = auto()  # AV
 
 
-def conditions(state: State, kind: Watch, axis: int, value: float) -> tuple[Condition, Condition]:
-    """The two conditions of which either ends the wait."""
-    b = axis_base(axis)
-    still: Condition = (b + layout.MOVING, EQUAL, 0.0)
-    path_still: Condition = (layout.PATH_MOVING, EQUAL, 0.0)
-    if kind is Watch.AFTER_POSITION:
-        up = value >= state[b + layout.ACTUAL]
-        return (b + layout.ACTUAL, NOT_LESS if up else NOT_MORE, value), still
-    if kind is Watch.IN_POSITION:
-        late = (b + layout.SETTLING, NOT_LESS, value) if value >= 0 else NOTHING
-        return (b + layout.IN_POSITION, EQUAL, 1.0), late
-    if kind is Watch.PATH_DISTANCE:
-        return (layout.PATH_TRAVELLED, NOT_LESS, state[layout.PATH_MARK] + value), path_still
-    if kind in (Watch.INPUT_HIGH, Watch.INPUT_LOW):
-        level = 1.0 if kind is Watch.INPUT_HIGH else 0.0
-        return (layout.INPUT_1 + int(value) - 1, EQUAL, level), NOTHING
-    table: dict[Watch, tuple[Condition, Condition]] = {
-        Watch.AFTER_MOVE: (still, NOTHING),
-        Watch.AFTER_DISTANCE: ((b + layout.DISTANCE, NOT_LESS, abs(value)), still),
-        Watch.AFTER_RELATIVE: ((b + layout.MARK_DISTANCE, NOT_LESS, abs(value)), still),
-        Watch.FORWARD_PAST: ((b + layout.ACTUAL, NOT_LESS, value), NOTHING),
-        Watch.REVERSE_PAST: ((b + layout.ACTUAL, NOT_MORE, value), NOTHING),
-        Watch.AT_SPEED: ((b + layout.AT_SPEED, EQUAL, 1.0), still),
-        Watch.TIME: ((layout.SAMPLE, NOT_LESS, value), NOTHING),
-        Watch.CONTOUR_FREE: ((layout.CONTOUR_BUFFERED, EQUAL, 0.0), NOTHING),
-        Watch.PATH_DONE: (path_still, NOTHING),
-        Watch.PATH_SPEED: ((layout.PATH_AT_SPEED, EQUAL, 1.0), path_still),
-    }
-    return table[kind]
+Pair = tuple[Condition, Condition]
+PATH_STILL: Condition = (layout.PATH_MOVING, EQUAL, 0.0)
+
+
+def still(b: int) -> Condition:
+    """The profile of the axis at `b` is done."""
+    return b + layout.MOVING, EQUAL, 0.0
+
+
+def crossing(state: State, b: int, value: float) -> Pair:
+    """AP: from below when the axis is below now, else from above."""
+    operator = NOT_LESS if value >= state[b + layout.ACTUAL] else NOT_MORE
+    return (b + layout.ACTUAL, operator, value), still(b)
+
+
+def settled(state: State, b: int, value: float) -> Pair:
+    """MC, or its time-out."""
+    late: Condition = (b + layout.SETTLING, NOT_LESS, value) if value >= 0 else NOTHING
+    return (b + layout.IN_POSITION, EQUAL, 1.0), late
+
+
+# The two conditions of which either ends the wait.
+CONDITIONS: dict[Watch, Callable[[State, int, float], Pair]] = {
+    Watch.AFTER_MOVE: lambda state, b, value: (still(b), NOTHING),
+    Watch.IN_POSITION: settled,
+    Watch.AFTER_DISTANCE: lambda state, b, value: ((b + layout.DISTANCE, NOT_LESS, abs(value)), still(b)),
+    Watch.AFTER_RELATIVE: lambda state, b, value: ((b + layout.MARK_DISTANCE, NOT_LESS, abs(value)), still(b)),
+    Watch.AFTER_POSITION: crossing,
+    Watch.FORWARD_PAST: lambda state, b, value: ((b + layout.ACTUAL, NOT_LESS, value), NOTHING),
+    Watch.REVERSE_PAST: lambda state, b, value: ((b + layout.ACTUAL, NOT_MORE, value), NOTHING),
+    Watch.AT_SPEED: lambda state, b, value: ((b + layout.AT_SPEED, EQUAL, 1.0), still(b)),
+    Watch.TIME: lambda state, b, value: ((layout.SAMPLE, NOT_LESS, value), NOTHING),
+    Watch.INPUT_HIGH: lambda state, b, value: ((layout.INPUT_1 + int(value) - 1, EQUAL, 1.0), NOTHING),
+    Watch.INPUT_LOW: lambda state, b, value: ((layout.INPUT_1 + int(value) - 1, EQUAL, 0.0), NOTHING),
+    Watch.CONTOUR_FREE: lambda state, b, value: ((layout.CONTOUR_BUFFERED, EQUAL, 0.0), NOTHING),
+    Watch.PATH_DONE: lambda state, b, value: (PATH_STILL, NOTHING),
+    Watch.PATH_SPEED: lambda state, b, value: ((layout.PATH_AT_SPEED, EQUAL, 1.0), PATH_STILL),
+    Watch.PATH_DISTANCE: lambda state, b, value: (
+        (layout.PATH_TRAVELLED, NOT_LESS, state[layout.PATH_MARK] + value),
+        PATH_STILL,
+    ),
+}
 
 
 def arm(state: State, kind: Watch, axis: int, wanted: float) -> int:
     """Puts the conditions in a free place of the table and returns its number."""
-    pair = conditions(state, kind, axis, wanted)
+    pair = CONDITIONS[kind](state, axis_base(axis), wanted)
     for number in range(layout.MAXIMUM_WATCHES):
         place = layout.WATCH + layout.WATCH_STRIDE * number
         if state[place + layout.W_STATE] == 0.0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 
-from device.simulator.kernel.compiled import CompilerMissing, cache_folder, compiled_loop
+from device.simulator.kernel.compiled import CompilerMissing, cache_folder, compiled_loop, drop_old_caches
 
 
 def main() -> int:
@@ -16,6 +16,7 @@ def main() -> int:
     except CompilerMissing as missing:
         print(f"the sample loop runs uncompiled: {missing}")
         return 1
+    drop_old_caches()
     print(f"the sample loop is compiled ({time.perf_counter() - begin:.1f} s, {cache_folder()})")
     return 0
 

@@ -6,6 +6,8 @@ import functools
 import hashlib
 import importlib
 import inspect
+import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -65,6 +67,24 @@ def as_state(array: Vector) -> State:
     return state
 
 
+def make_cache_folder() -> Path | None:
+    """The cache folder, made when it is not there; None where that is not allowed."""
+    folder = cache_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
+
+
+def drop_old_caches() -> None:
+    """Removes what earlier versions of the kernel left in the cache."""
+    current = cache_folder()
+    for folder in current.parent.glob("kernel-*"):
+        if folder != current:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
 def plain_loop() -> Loop:
     """The loop as plain Python; memoryviews read and write plain floats much faster than arrays do."""
     loop = importlib.import_module(f"{PACKAGE}.loop")
@@ -122,11 +142,12 @@ def compiled_loop() -> Loop:
                 register_jitable(forceinline=name in INLINED and value.__name__ not in SELDOM)(value)
     loop = importlib.import_module(f"{PACKAGE}.loop")
     settings: Any = numba.config
-    before = settings.CACHE_DIR
-    settings.CACHE_DIR = str(cache_folder())
+    before, folder = settings.CACHE_DIR, make_cache_folder()
+    if folder is not None:
+        settings.CACHE_DIR = str(folder)
     try:
         signature = numba.int64(numba.float64[::1], numba.float64[::1], numba.int64)
-        compiled: Loop = numba.njit(signature, nogil=True, cache=True)(loop.run)
+        compiled: Loop = numba.njit(signature, nogil=True, cache=folder is not None)(loop.run)
     finally:
         settings.CACHE_DIR = before
     return compiled

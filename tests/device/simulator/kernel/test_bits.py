@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import numpy
 import pytest
@@ -78,3 +79,18 @@ def test_no_two_slots_share_a_place() -> None:
     assert places == sorted(set(places))
     assert layout.ANALOG_1 >= layout.INPUT_1 + 8
     assert max(places) < layout.WATCH
+
+
+def test_a_cache_that_can_not_be_written_is_not_needed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("in the way")
+    monkeypatch.setattr(compiled, "cache_folder", lambda: blocked / "kernel-x")
+    assert compiled.make_cache_folder() is None
+
+
+def test_only_this_versions_cache_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("kernel-old", "kernel-new", "other"):
+        (tmp_path / name).mkdir()
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path / "kernel-new")
+    compiled.drop_old_caches()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["kernel-new", "other"]
