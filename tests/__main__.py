@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.long import collect
+from tests.long.table import main as write_table
 
 ROOT = Path(__file__).resolve().parent.parent
 CHECKS = (
@@ -108,6 +109,7 @@ def main(argv: list[str] | None = None) -> int:
         run_tests("tests that measure time", ["-m", "alone", *limit, *chosen], environment, totals)
         if options.long:
             print(f"{len(collect(Path(figures)))} figures in tests/long/results.json")
+            write_table()
     print(summary(totals, time.monotonic() - started))
     return 1 if totals.failed or totals.errors or totals.broken or not totals.passed else 0
 

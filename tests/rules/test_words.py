@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from tests.long.table import README, rows_of, with_table
 from tests.rules.sources import project_texts, relative
 
 # Written in pieces so that this file does not find itself.
@@ -58,3 +59,8 @@ def test_a_planted_word_is_seen(text: str) -> None:
 def test_licence_readme_and_changes_are_there() -> None:
     names = {relative(path) for path in project_texts()}
     assert {"README.md", "LICENSE", "CONTRIBUTING.md", "CHANGELOG.md"} <= names
+
+
+def test_the_readme_shows_the_measured_figures() -> None:
+    text = README.read_text(encoding="utf-8")
+    assert text == with_table(text, rows_of()), "write it with: python -m tests.long.table"
