@@ -275,6 +275,10 @@ class Session(QObject):
         document = files.load(path)
         self._start(document, path, saved=True)
 
+    def open_copy(self, path: Path) -> None:
+        """Opens an example: it has no file of its own, so Save asks for a name; raises FileUnreadable."""
+        self._start(files.load(path), None, saved=True)
+
     def save(self, *, overwrite: bool = False) -> None:
         """Writes the file; refuses when it has never been named, or when somebody else has changed it."""
         if self.path is None:

@@ -55,7 +55,7 @@ class Cell(QWidget):
         _say(self.counts, "" if problem else counts)
         _say(self.problem, f"! {problem}" if problem else f"△ {warning}" if warning else "")
         spoken = ". ".join(part for part in (unit, counts, warning or "", problem or "") if part)
-        target = self.editor.focusProxy() or self.editor
+        target = focus_target(self.editor)
         if target.accessibleDescription() != spoken:
             target.setAccessibleDescription(spoken)
 
@@ -80,9 +80,15 @@ def name_focusable(editor: QWidget, name: str, help_text: str) -> None:
             part.setToolTip(help_text)
 
 
+def focus_target(editor: QWidget) -> QWidget:
+    """The part of an editor that takes the cursor."""
+    inner = getattr(editor, "focus_target", None)
+    return inner() if inner is not None else editor
+
+
 def focus_in(widget: QWidget) -> None:
     """Puts the cursor into an editor and selects what stands there."""
-    target = widget.focusProxy() or widget
+    target = focus_target(widget)
     target.setFocus(Qt.FocusReason.TabFocusReason)
     line = target.lineEdit() if isinstance(target, QComboBox) else target
     if line is not None and hasattr(line, "selectAll"):

@@ -104,7 +104,10 @@ class ExpressionEditor(QWidget):
         button.clicked.connect(self.line.build)
         _row(self, self.line, button)
         self.line.changed.connect(self.changed)
-        self.setFocusProxy(self.line)
+
+    def focus_target(self) -> LineEditor:
+        """The line takes the cursor."""
+        return self.line
 
     def value(self) -> str:
         return self.line.value()
@@ -159,8 +162,11 @@ class Buttons(QWidget):
             self.buttons[key] = button
             button.toggled.connect(self._toggled)
         _row(self, *self.buttons.values(), space=4).addStretch(1)
-        if self.buttons:
-            self.setFocusProxy(next(iter(self.buttons.values())))
+
+    def focus_target(self) -> QPushButton:
+        """The button the cursor goes to: the first that is on, else the first."""
+        shown = list(self.buttons.values())
+        return next((button for button in shown if button.isChecked()), shown[0])
 
     def chosen(self) -> list[Any]:
         """The words that are on, in order."""
@@ -175,8 +181,6 @@ class Buttons(QWidget):
             button.setChecked(key in keys)
             button.blockSignals(False)
         self.group.setExclusive(exclusive)
-        if exclusive and keys and keys[0] in self.buttons:
-            self.setFocusProxy(self.buttons[keys[0]])
 
     def _toggled(self, on: bool) -> None:
         if on or not self.group.exclusive():
@@ -350,6 +354,7 @@ def label_name(field: fields.LabelName, offers: Offers) -> QWidget:
 
 
 EDITORS: dict[type[fields.Field], Any] = {
+    fields.Field: LineEditor,
     fields.Quantity: LineEditor,
     fields.Number: LineEditor,
     fields.Choice: choice,
@@ -368,3 +373,8 @@ EDITORS: dict[type[fields.Field], Any] = {
 }
 
 AXIS_EDITORS: dict[type[fields.Field], Any] = {fields.Flag: optional_flag, fields.Choice: optional_choice}
+
+
+def maker_for(field: fields.Field, makers: dict[type[fields.Field], Any]) -> Any:
+    """What builds the editor for a field: its own kind's, or that of the nearest kind it is a sort of; else None."""
+    return next((makers[kind] for kind in type(field).__mro__ if kind in makers), None)

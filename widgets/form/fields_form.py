@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
-from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list
+from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list, maker_for
 from widgets.form.offers import Offers
 from widgets.form.rows import RowsEditor
 from widgets.parts.look import look
@@ -189,14 +189,14 @@ def make_editor(field: fields.Field, offers: Offers, *, narrow: bool = False) ->
         return RowsEditor(field, offers, lambda offers: FieldsForm(offers, narrow=narrow), narrow=narrow)
     if narrow and isinstance(field, fields.Choice):
         return choice_list(field)
-    editor: QWidget = EDITORS[type(field)](field, offers)
+    editor: QWidget = maker_for(field, EDITORS)(field, offers)
     return editor
 
 
 def make_axis_editor(field: fields.Field, offers: Offers) -> QWidget:
     """The editor for one axis of a per-axis field; it can be left empty."""
     inner = field.of if isinstance(field, fields.PerAxis) else field
-    make = AXIS_EDITORS.get(type(inner), EDITORS[type(inner)])
+    make = maker_for(inner, AXIS_EDITORS) or maker_for(inner, EDITORS)
     editor: QWidget = make(inner, offers)
     return editor
 

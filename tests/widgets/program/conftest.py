@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from PySide6.QtWidgets import QApplication
 
 from app.theme import Choice, Theme
 
 
-@pytest.fixture(autouse=True)
-def light(qapp: QApplication) -> Iterator[None]:
-    """The theme the widgets paint with."""
-    theme = Theme(qapp, Choice.LIGHT)
-    yield
-    theme.deleteLater()
+@pytest.fixture(autouse=True, scope="session")
+def light(qapp: QApplication) -> Theme:
+    """The theme the widgets paint with; one for all tests, as in the program."""
+    return Theme(qapp, Choice.LIGHT)
