@@ -91,26 +91,32 @@ def test_modules_stay_short() -> None:
 ASSERTING = ("assert", "check", "expect", "wait_until", "waituntil", "waitsignal", "raises", "fail", "verify", "must_")
 
 
-def asserts(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
-    """Whether a test can fail by what it says."""
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def called(node: ast.Call) -> str:
+    """The bare name of what is called."""
+    return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+
+
+def asserts(function: Function, helpers: frozenset[str] = frozenset()) -> bool:
+    """Whether a test can fail by what it says, itself or through a helper of the same file."""
     for node in ast.walk(function):
         if isinstance(node, ast.Assert):
             return True
         if isinstance(node, ast.Call):
-            name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-            if any(word in name.lower() for word in ASSERTING):
+            name = called(node)
+            if name in helpers or any(word in name.lower() for word in ASSERTING):
                 return True
     return False
 
 
 def idle_tests(tree: ast.Module) -> list[tuple[int, str]]:
     """Tests that can not fail."""
+    functions = [node for node in ast.walk(tree) if isinstance(node, Function)]
+    helpers = frozenset(node.name for node in functions if not node.name.startswith("test_") and asserts(node))
     return [
-        (node.lineno, node.name)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
-        and node.name.startswith("test_")
-        and not asserts(node)
+        (node.lineno, node.name) for node in functions if node.name.startswith("test_") and not asserts(node, helpers)
     ]
 
 
@@ -126,6 +132,7 @@ def test_every_test_asserts_something() -> None:
 
 def test_a_test_without_assertion_is_seen() -> None:
     assert idle_tests(ast.parse("def test_nothing():\n    print(1)\n")) == [(1, "test_nothing")]
+    assert not idle_tests(ast.parse("def right():\n    assert x\ndef test_it():\n    right()\n"))
 
 
 def test_nothing_sleeps_in_the_language() -> None:
