@@ -161,7 +161,7 @@ def cam_enable(unit: Unit, strand: Strand, call: Call) -> None:
         raise CommandError(6)
     if on:
         _needs_master(unit)
-        if unit.state.cam_cycle > TABLE_END * unit.state.cam_interval[0]:
+        if not 1 <= unit.state.cam_cycle <= TABLE_END * unit.state.cam_interval[0]:
             raise CommandError(CYCLE_TOO_LONG)
     unit.motion.cam.enable(bool(on))
 
