@@ -92,7 +92,7 @@ def set_motor_type(state: State, b: int, value: float) -> None:
         reference = state[b + layout.REFERENCE]
         state[b + layout.STEPS] = state[b + layout.STEPS_SMOOTH] = reference
         state[b + layout.STEPS_SHIFT] = reference - state[b + layout.MOTOR_X] * sign
-        state[b + layout.INTEGRAL] = state[b + layout.ERROR] = 0.0
+        state[b + layout.INTEGRAL] = state[b + layout.ERROR] = state[b + layout.ERROR_HIGH] = 0.0
 
 
 def set_encoder(state: State, b: int, value: float) -> None:

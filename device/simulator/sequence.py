@@ -60,11 +60,9 @@ class Path:
         state = self._state
         for slot in (layout.PATH_HEAD, layout.PATH_OUT_HEAD, layout.PATH_TAIL, layout.PATH_ENDED, layout.PATH_TOTAL):
             state[slot] = 0.0
-        for slot in (layout.PATH_TRAVELLED, layout.PATH_SMOOTHED, layout.PATH_MARK, layout.PATH_V):
-            state[slot] = 0.0
         for part in self._parts:
             part[layout.PATH_END] = 0.0
-        for slot in (layout.PATH_LAST_FIRST, layout.PATH_LAST_SECOND, layout.PATH_HEADING_KNOWN):
+        for slot in (layout.PATH_LAST_FIRST, layout.PATH_LAST_SECOND, layout.PATH_HEADING_KNOWN, layout.PATH_FINISHED):
             state[slot] = 0.0
 
     def linear(self, axes: Sequence[int]) -> None:
@@ -107,6 +105,8 @@ class Path:
         return self._state[layout.PATH_SCALE_FIRST], self._state[layout.PATH_SCALE_SECOND]
 
     def _room(self, length: float) -> int:
+        if self._state[layout.PATH_FINISHED]:
+            self._open()
         if length <= 0.0:
             return TOO_SHORT
         if self._state[layout.PATH_TOTAL] + length > LONGEST:
@@ -147,6 +147,8 @@ class Path:
         """VP: straight to a point of the plane, measured from the start of the sequence."""
         if not self._vector:
             return MIXED
+        if self._state[layout.PATH_FINISHED]:
+            self._open()
         step = (first - self._point[0], second - self._point[1])
         length = math.hypot(*step)
         error = self._room(length)
@@ -235,7 +237,8 @@ class Path:
     @property
     def ready(self) -> bool:
         """There are segments to run (else error 24)."""
-        return self._state[layout.PATH_TAIL] > self._state[layout.PATH_HEAD]
+        state = self._state
+        return not state[layout.PATH_FINISHED] and state[layout.PATH_TAIL] > state[layout.PATH_HEAD]
 
     @property
     def moving(self) -> bool:
@@ -246,6 +249,8 @@ class Path:
     def free(self) -> int:
         """_LM: places for segments."""
         state = self._state
+        if state[layout.PATH_FINISHED]:
+            return layout.WAITING_SEGMENTS
         waiting = state[layout.PATH_TAIL] - state[layout.PATH_HEAD] - state[layout.PATH_ACTIVE]
         kept = layout.MAXIMUM_SEGMENTS - 1 - (state[layout.PATH_TAIL] - state[layout.PATH_OUT_HEAD])
         return int(min(layout.WAITING_SEGMENTS - waiting, kept))

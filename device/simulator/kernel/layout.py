@@ -80,7 +80,8 @@ ANALOG_1 = 24  # eight voltages
     PATH_SCALE_SECOND,
     PATH_TANGENT_SCALE,  # TN, counts a degree
     PATH_TANGENT_ZERO,
-) = range(48, 79)
+    PATH_FINISHED,  # 1: the sequence has ended; the next segment begins a new one
+) = range(48, 80)
 
 # --- watches: armed (0 free, 1 armed, 2 tripped), then two conditions (slot, operator, value), either trips ---
 WATCH = 80

@@ -22,6 +22,7 @@ from device.simulator.kernel.layout import (
     PATH_DC_STEP,
     PATH_END,
     PATH_ENDED,
+    PATH_FINISHED,
     PATH_FIRST,
     PATH_HEAD,
     PATH_MEMBER,
@@ -158,6 +159,13 @@ def put_out(S: State, axes: int) -> None:
         A[VELOCITY_V] = (A[POSITION] - before) * SAMPLES
 
 
+def end_path(S: State) -> None:
+    """The sequence is over; its segments are done with."""
+    S[PATH_ACTIVE] = 0.0
+    S[PATH_MOVING] = 0.0
+    S[PATH_FINISHED] = 1.0
+
+
 def complete(S: State, axes: int) -> None:
     """The sequence has ended; at its very end the axes stand exactly on the last point."""
     arrived = S[PATH_SMOOTHED] == S[PATH_TOTAL]
@@ -173,22 +181,29 @@ def complete(S: State, axes: int) -> None:
         finish(A)
         A[STOP_CODE] = S[PATH_STOP_CODE] if S[PATH_STOP_CODE] != 0.0 else 101.0
         A[PATH_MEMBER] = 0.0
-    S[PATH_MOVING] = 0.0
+    end_path(S)
 
 
 def check_members(S: State, axes: int) -> None:
-    """An axis that was frozen, or hit a limit, takes the whole path to a stop."""
+    """An axis that was frozen, or hit a limit, takes the whole path to a stop; without any axis it is over."""
+    left = 0
     for axis in range(axes):
         A = part(S, axis)
         if A[PATH_MEMBER] != 0.0 and A[MODE] != MODE_PATH:
             A[PATH_MEMBER] = 0.0
             if S[PATH_STOP_CODE] == 0.0:
                 S[PATH_STOP_CODE] = A[STOP_CODE]
+        if A[PATH_MEMBER] == 1.0:
+            left += 1
+    if left == 0:
+        end_path(S)
 
 
 def advance_path(S: State, axes: int) -> None:
     """One sample of the sequence."""
     check_members(S, axes)
+    if S[PATH_MOVING] == 0.0:
+        return
     if S[PATH_ACTIVE] != 0.0:
         enter_segments(S)
         advance_along(S)

@@ -338,6 +338,44 @@ def test_an_abort_of_one_axis_stops_the_path() -> None:
     assert not motion.moving(1)
 
 
+def test_an_abort_of_all_ends_the_path_in_the_same_sample() -> None:
+    motion = Motion(2)
+    way = motion.path
+    way.linear([0, 1])
+    way.line({0: 30000, 1: 40000})
+    way.end()
+    way.begin()
+    motion.run(300)
+    motion.abort_all()
+    motion.run(1)
+    assert not way.moving
+    assert not way.ready
+
+
+def test_a_second_sequence_needs_no_new_lm() -> None:
+    motion = Motion(2)
+    way = motion.path
+    way.linear([0, 1])
+    for _ in range(3):
+        way.line({0: 300, 1: 400})
+        way.line({0: -100})
+        way.end()
+        assert way.length == 600
+        way.begin()
+        run_until(motion, Watch.PATH_DONE)
+        assert not way.ready
+        assert way.free == 511
+        assert way.travelled == 600
+    assert (motion.reference(0), motion.reference(1)) == (600, 1200)
+    way.vector(0, 1)
+    for _ in range(2):
+        assert way.point(50, 60) == 0  # local coordinates begin at 0 again
+        way.end()
+        way.begin()
+        run_until(motion, Watch.PATH_DONE)
+    assert (motion.reference(0), motion.reference(1)) == (700, 1320)
+
+
 def test_speed_of_a_segment_and_ratio() -> None:
     motion = Motion(1)
     way = motion.path
