@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-import math
-import re
 import time
 from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
-from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from codegen.models import Model
-from device import commands, live
+from device import commands
 from device.asking import Listing, Prompt, Waiting
 from device.commands import Reply
 from device.door import Door
-from device.download import Download, Downloaded, DownloadFailed, Job, recover, upload_steps
-from device.hold import Lease
-from device.identify import Identity, identify, read_once
+from device.download import Downloaded, DownloadFailed, Job, program_lines
+from device.hands import Io, Memory, Motion
+from device.happenings import Badge, Kind, Notice, NoticeKind, State
+from device.identify import Identity, read_once
 from device.link import Link, Traffic
+from device.meeting import Events
+from device.own import OwnSimulator
 from device.poll import Poller
 from device.ring import EMPTY, Row
-from device.simulator.process import SimulatorProcess
 from device.stop import NO_ANSWER_S, Stopping, StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
@@ -61,92 +59,6 @@ __all__ = [
 T = TypeVar("T")
 
 
-class Kind(StrEnum):
-    MACHINE = "machine"
-    SIMULATOR = "simulator"
-    REPLAY = "replay"
-    OFFLINE = "offline"
-
-
-class State(StrEnum):
-    OFFLINE = "offline"
-    CONNECTING = "connecting"
-    READY = "connected"
-    LOST = "connection lost"
-
-
-class Badge(StrEnum):
-    """How the program in the controller stands to the document."""
-
-    SAME = "same program"
-    CHANGED = "changed since download"
-    UNKNOWN = "unknown program"
-
-
-class NoticeKind(StrEnum):
-    MESSAGE = "message"
-    PROMPT = "question"
-    FAULT = "fault"
-    LOST = "lost"
-    CONNECTED = "connected"
-    IDENTIFIED = "identified"
-    RESTARTED = "restarted"
-    STOP = "stop"
-    CONTROL = "control"
-    DOWNLOAD = "download"
-
-
-@dataclass(frozen=True, slots=True)
-class Notice:
-    """Something that happened, in one sentence."""
-
-    kind: NoticeKind
-    text: str
-    at: float
-
-
-class Closeable(Protocol):
-    def close(self) -> None: ...
-
-
-class OwnSimulator:
-    """A simulated controller in a process of its own, started by the link's thread when it is first needed."""
-
-    def __init__(self, model: str, plant: Path | None = None, eeprom: Path | None = None) -> None:
-        self._model, self._plant, self._eeprom = model, plant, eeprom
-        self._process: SimulatorProcess | None = None
-        self._closed = False
-
-    def open(self, line: LineSettings) -> Transport:
-        """The line to it; starts it, also again when it has ended."""
-        if self._closed:
-            raise OpenFailed("The simulator was closed.")
-        if self._process is not None:
-            try:
-                return open_transport(self._process.address, line)
-            except OpenFailed:
-                self._process.close()
-        try:
-            self._process = SimulatorProcess(self._model, plant=self._plant, eeprom=self._eeprom, baud=line.baud)
-        except OSError as reason:
-            raise OpenFailed(f"The simulator did not start ({reason}).") from reason
-        return open_transport(self._process.address, line)
-
-    def stimulus(self, signal: str, value: float | str) -> None:
-        """Something happens to the simulated machine (an input, a limit switch, a push)."""
-        if self._process is not None:
-            self._process.stimulus(signal, value)
-
-    def state(self) -> dict[str, Any]:
-        """What the simulation knows of itself; empty before it runs."""
-        return self._process.state() if self._process is not None else {}
-
-    def close(self) -> None:
-        self._closed = True
-        if self._process is not None:
-            self._process.close()
-
-
 class Controller:
     """One controller. Every call returns at once; answers come in futures, happenings in `notices`."""
 
@@ -160,7 +72,7 @@ class Controller:
         program_folder: Path | None = None,
         idle_limit_s: float = 600.0,
         clock: Callable[[], float] = time.monotonic,
-        own: Closeable | None = None,
+        own: OwnSimulator | None = None,
         threaded: bool = True,
     ) -> None:
         self.kind, self.line, self.clock = kind, line or LineSettings(), clock
@@ -184,15 +96,14 @@ class Controller:
         self.motion = Motion(self)
         self.io = Io(self)
         self._expected_model = model
-        self.simulator = own if isinstance(own, OwnSimulator) else None
-        self._own = own
+        self.simulator = own
         self._notices: deque[Notice] = deque(maxlen=2000)
         self._document: str | None = None
         self._time: tuple[float, float] | None = None
         self._used = clock()
         self._was_lost = False
         self.door.control = kind is Kind.SIMULATOR
-        self.link = Link(opener or _no_transport, self.line, _Events(self), self.door, clock)
+        self.link = Link(opener or _no_transport, self.line, Events(self), self.door, clock)
         if opener is not None and threaded:
             self.link.start()
 
@@ -246,8 +157,8 @@ class Controller:
     def close(self) -> None:
         self.motion.release()
         self.link.close()
-        if self._own is not None:
-            self._own.close()
+        if self.simulator is not None:
+            self.simulator.close()
         self.state, self.state_text, self._stop_state = State.OFFLINE, "Offline", StopState.NO_LINK
 
     @property
@@ -448,8 +359,6 @@ class Controller:
             return Badge.UNKNOWN
         if self._document is None:
             return Badge.CHANGED
-        from device.download import program_lines
-
         return Badge.SAME if program_lines(self._document) == program_lines(self.listing) else Badge.CHANGED
 
     def execute(self, label: str | None = None, thread: int = 0, anyway: bool = False) -> Future[Reply]:
@@ -495,197 +404,5 @@ class Controller:
         return [line for line in list(self.link.record) if line.number > after]
 
 
-class _Events:
-    """Hears the link and keeps the controller's state (on the link's thread)."""
-
-    def __init__(self, controller: Controller) -> None:
-        self._c = controller
-
-    def opened(self) -> None:
-        c = self._c
-        c.state, c.state_text = State.CONNECTING, "Asking who is there…"
-        c.link.submit(self._meet(), Priority.USER, "poll")
-
-    def _meet(self) -> Steps[None]:
-        """Identifies, learns whether a program runs and may ask, then starts reading."""
-        c = self._c
-        identity = yield from self._identify()
-        c.identity = identity
-        c.model = identity.model or c._expected_model
-        if c.model is not None:
-            c.poller.columns = c.model.columns
-            if c.poller.ring.columns != live.columns(c.model):
-                c.poller.set_columns(live.columns(c.model))
-        c.waiting.restarted()
-        yield from self._programs()
-        c.state, c.state_text = State.READY, f"Connected: {identity.text or 'unknown controller'}"
-        c._show_stop(StopState.READY)
-        c.notify(NoticeKind.IDENTIFIED, f"Connected to {identity.text or 'a controller that does not name itself'}.")
-        c.link.submit(c.poller.run(), Priority.POLL, "poll")
-
-    def _identify(self) -> Steps[Identity]:
-        c = self._c
-        while True:
-            try:
-                if c.waiting.unfinished:
-                    yield from recover(c.waiting, c.nonces)
-                return (yield from identify(c.nonces, c.line.address))
-            except LinkLost as reason:
-                if c.state is not State.LOST:
-                    self.lost(str(reason), refused=True)
-
-    def _programs(self) -> Steps[None]:
-        """Which threads run; a running program that is not known is read, because it may ask."""
-        c = self._c
-        threads = c.model.threads if c.model is not None else 1
-        lines = []
-        for number in range(threads):
-            answer = yield from read_once(c.nonces, (f"_XQ{number}", Shape(4, 0)))
-            lines += [int(v) for v in answer.values if v >= 0]
-        if lines and c.listing is None:
-            text = yield from upload_steps(c.nonces, None)
-            c.waiting.listing = Listing(text)
-        c.waiting.threads(frozenset(lines))
-
-    def lost(self, sentence: str, *, refused: bool) -> None:
-        c = self._c
-        new = c.state is not State.LOST or c.state_text != sentence
-        c.state, c.state_text = State.LOST, sentence
-        if c._stop_state is StopState.STOPPING:
-            c._show_stop(StopState.NOT_CONFIRMED)
-        elif c._stop_state is not StopState.NOT_CONFIRMED:
-            c._show_stop(StopState.NO_LINK)
-        if new:
-            c.notify(NoticeKind.LOST, sentence)
-        if not refused and c.kind is Kind.MACHINE:
-            c.release_control("Back to Watch: the connection was lost.")
-
-    def text(self, line: str) -> None:
-        c = self._c
-        fault = re.fullmatch(r"\?\s*(\d{3}) (.*)", line)
-        c.notify(NoticeKind.FAULT if fault else NoticeKind.MESSAGE, line)
-
-    def standing(self, rest: str) -> None:
-        c = self._c
-        if c.waiting.seen(rest):
-            c.door.question = c.waiting.question
-            c.notify(NoticeKind.PROMPT, rest)
-
-    def sent(self, data: bytes, source: str) -> None:
-        """What leaves may change what the controller holds or waits for."""
-        commands.sent(self._c, data, source)
-
-
 def _no_transport() -> Transport:
     raise OpenFailed("Offline: there is no controller.")
-
-
-class Memory:
-    """Programs in and out, and what survives switching off."""
-
-    def __init__(self, controller: Controller) -> None:
-        self._c = controller
-
-    def download(self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None) -> Job[Downloaded]:
-        job: Job[Downloaded] = Job(progress)
-        c = self._c
-        download = Download(
-            listing, job, model=c.model, line=c.line, nonces=c.nonces, clock=c.clock, folder=c.program_folder
-        )
-        job.future = c.run(self._downloading(download), Priority.DOWNLOAD, "download")
-        return job
-
-    def _downloading(self, download: Download) -> Steps[Downloaded]:
-        c = self._c
-        c.motion.release()
-        try:
-            done = yield from download.steps()
-        except LinkError as reason:
-            if download.touched:
-                c.set_listing(None)
-            if download.unfinished and not isinstance(reason.__cause__, Stopped):
-                c.waiting.unfinished = True
-                c.link.submit(recover(c.waiting, c.nonces), Priority.USER, "download")
-            c.notify(NoticeKind.DOWNLOAD, str(reason))
-            raise
-        c.set_listing(download.text)
-        c.notify(NoticeKind.DOWNLOAD, done.sentence)
-        return done
-
-    def upload(self, progress: Callable[[Job[str]], None] | None = None) -> Job[str]:
-        job: Job[str] = Job(progress)
-        job.future = self._c.run(self._uploading(job), Priority.DOWNLOAD, "download")
-        return job
-
-    def _uploading(self, job: Job[str]) -> Steps[str]:
-        text = yield from upload_steps(self._c.nonces, job)
-        self._c.set_listing(text)
-        return text
-
-    def burn_program(self) -> Future[Reply]:
-        """BP: up to 10 s; not while anything runs or moves."""
-        return self._c.run(commands.typed(self._c, "BP", 15.0), Priority.USER, "user")
-
-    def burn_parameters(self) -> Future[Reply]:
-        return self._c.run(commands.typed(self._c, "BN", 3.0), Priority.USER, "user")
-
-    def burn_variables(self) -> Future[Reply]:
-        return self._c.run(commands.typed(self._c, "BV", 5.0), Priority.USER, "user")
-
-    def burn_words(self) -> str:
-        """What the next power-up will do once the program is burned."""
-        listing = self._c.listing
-        if listing is None:
-            return (
-                "The program in the controller is unknown. Burned, it will be there after the next power-up; "
-                "if it has an #AUTO it starts by itself."
-            )
-        if re.search(r"(?m)(^|;)\s*#\s*AUTO\b", listing):
-            return (
-                "At the next power-up this program starts by itself at #AUTO: "
-                "the machine may move as soon as it is switched on."
-            )
-        return "At the next power-up this program is in the controller but does not start: it has no #AUTO."
-
-
-class Motion:
-    """Moving by hand: a lease held by one axis at a time."""
-
-    def __init__(self, controller: Controller) -> None:
-        self._c = controller
-        self._lease: Lease | None = None
-
-    def hold(self, axis: str, speed_counts_s: float, acceleration: float, deceleration: float) -> Future[None]:
-        """Moves while `renew` is called at least every 150 ms."""
-        self.release()
-        c = self._c
-        c._used = c.clock()
-        speed = math.trunc(speed_counts_s)
-        lease = Lease(axis, speed, math.trunc(acceleration), math.trunc(deceleration), c.clock, c.nonces)
-        lease.renew()
-        self._lease = lease
-        return c.run(lease.steps(), Priority.LEASE, "user")
-
-    def renew(self) -> None:
-        if self._lease is not None:
-            self._lease.renew()
-
-    def release(self) -> None:
-        if self._lease is not None:
-            self._lease.release()
-            self._lease = None
-
-
-class Io:
-    """Outputs by hand."""
-
-    def __init__(self, controller: Controller) -> None:
-        self._c = controller
-
-    def set_output(self, number: int, on: bool) -> Future[Reply]:
-        """Switches one output; needs Control and I/O control."""
-        if not self._c.io_control:
-            future: Future[Reply] = Future()
-            future.set_exception(NotAllowed("Not sent: switch I/O control on to set outputs by hand."))
-            return future
-        return self._c.ask(f"{'SB' if on else 'CB'} {number}")

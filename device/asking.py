@@ -203,7 +203,7 @@ class Waiting:
 
     def seen(self, rest: str) -> bool:
         """Text without a line end stands there; says whether it is a new question."""
-        if self.prompt is not None or self.position == frozenset() or not rest.strip():
+        if self.prompt is not None or self.position == frozenset() or not rest.strip(" :?\r\n"):
             return False
         if self.listing is None:
             self.prompt = Prompt(rest)

@@ -11,6 +11,7 @@ REVISION = b"\x12\x16"
 LEAVE = b"\x11\x1b\x5c"  # leaves editor, data mode and download; nothing in command mode
 MASTER_RESET = b"\x12\x13"
 
+UNITS = frozenset(b"%d\r" % unit for unit in range(8))  # choosing a unit of a daisy chain
 TELLS = frozenset(["TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TI", "SC", "RL"])  # never TC: reading it clears it
 LISTS = frozenset(["LS", "LL", "LV", "LA", "UL", "QU"])
 CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # reading a string or number clears its status
@@ -19,7 +20,7 @@ CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # readi
 @lru_cache(maxsize=2048)
 def only_reads(data: bytes) -> bool:
     """Whether these bytes can change nothing: listed reads, queries, or the revision."""
-    if data in (REVISION, LEAVE + b"\r", b"\r"):
+    if data in (REVISION, LEAVE + b"\r", b"\r") or (data[:1] == b"%" and data[1:] in UNITS):
         return True
     if not data.endswith(b"\r") or not data.isascii() or any(byte < 0x20 for byte in data[:-1]):
         return False

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from codegen.models import MODELS, Model
-from device.tasks import LinkLost, Send, Steps
-from device.wire import Answer, Frame, Kind, Proof, Revision, Shape, framed
+from device.tasks import LinkLost, Send, Steps, Wait
+from device.wire import Answer, Frame, Kind, Prompts, Proof, Revision, Shape, framed
 
+LISTEN_S = 0.1
 REVISION = b"\x12\x16"
 TEXTS = ((r"DMC ?-?15([1-4])0\b", "ssc{}"), (r"\bSSC ?-?([1-4])\b", "ssc{}"), (r"DMC ?-?(1412|1414)\b", "dmc{}"))
 
@@ -34,11 +35,14 @@ def model_of(text: str) -> Model | None:
 
 
 def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identity]:
-    """Asks for the revision; where the text is unknown, counts the axes in the answer to TP."""
+    """Listens, then asks for the revision; where the text is unknown, counts the axes in the answer to TP."""
+    yield Wait(LISTEN_S)
     if address is not None:
         yield Send(f"%{address}\r".encode())
     answer = yield Send(REVISION, Revision(), timeout_s=1.0)
     text = answer.text if answer.kind is Kind.ACCEPTED else ""
+    if not text and (yield Send(b"\r", Prompts(1), timeout_s=1.0)).kind is Kind.SILENT:
+        raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
     model = model_of(text)
     serial = yield from _serial(nonces)
     if model is not None:
@@ -50,7 +54,7 @@ def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identit
 
 
 def _serial(nonces: Iterator[str]) -> Steps[int | None]:
-    answer = yield from read_once(nonces, ("_BN", Shape(10, 0)))
+    answer = yield from read_surely(nonces, ("_BN", Shape(10, 0)))
     return int(answer.values[0]) if answer.kind is Kind.VALUES else None
 
 
@@ -67,6 +71,14 @@ def read_once(nonces: Iterator[str], *reads: tuple[str, Shape], timeout_s: float
     nonce = next(nonces)
     shapes = tuple(shape for _, shape in reads)
     return (yield Send(framed(nonce, reads).encode() + b"\r", Frame(nonce, shapes), timeout_s, refusal_s=0.05))
+
+
+def read_surely(nonces: Iterator[str], *reads: tuple[str, Shape]) -> Steps[Answer]:
+    """A read that is asked once more where it was disturbed (by half a line somebody left, for instance)."""
+    answer = yield from read_once(nonces, *reads)
+    if answer.kind is not Kind.VALUES:
+        answer = yield from read_once(nonces, *reads)
+    return answer
 
 
 def fence(nonces: Iterator[str], timeout_s: float = 0.6) -> Steps[Answer]:

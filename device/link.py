@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import re
 import threading
@@ -10,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
-from device.door import Door
+from device.door import LEAVE, Door
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Send, Step, Steps, Stopped, Task, Wait
 from device.transport import LineSettings, OpenFailed, Transport, TransportLost
 from device.wire import Answer, Kind, Wire
@@ -101,6 +102,10 @@ class Link:
         self._shut()
 
     def _shut(self) -> None:
+        """Leaves nothing half: a line begun becomes one the controller refuses, a transfer is ended."""
+        if self.transport is not None:
+            with contextlib.suppress(TransportLost):
+                self.transport.write((b"\\\r" if self._out else b"") + (LEAVE if self._holder is not None else b""))
         self._fail_all(LinkLost("The connection was closed."), survivors=False)
         if self.transport is not None:
             self.transport.close()

@@ -1,4 +1,4 @@
-"""Downloads: verified, the old program kept, every failure one sentence that claims nothing, and afterwards it works again."""
+"""Downloads: verified, the old program kept, every failure one sentence that claims nothing, and it works again."""
 
 from __future__ import annotations
 

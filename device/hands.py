@@ -1,0 +1,130 @@
+"""What a person does with a controller besides asking: programs, moving by hand, outputs."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TYPE_CHECKING
+
+from device import commands
+from device.commands import Reply
+from device.download import Download, Downloaded, Job, recover, upload_steps
+from device.happenings import NoticeKind
+from device.hold import Lease
+from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped
+
+if TYPE_CHECKING:
+    from device.api import Controller
+
+
+class Memory:
+    """Programs in and out, and what survives switching off."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+
+    def download(self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None) -> Job[Downloaded]:
+        job: Job[Downloaded] = Job(progress)
+        c = self._c
+        download = Download(
+            listing, job, model=c.model, line=c.line, nonces=c.nonces, clock=c.clock, folder=c.program_folder
+        )
+        job.future = c.run(self._downloading(download), Priority.DOWNLOAD, "download")
+        return job
+
+    def _downloading(self, download: Download) -> Steps[Downloaded]:
+        c = self._c
+        c.motion.release()
+        try:
+            done = yield from download.steps()
+        except LinkError as reason:
+            if download.touched:
+                c.set_listing(None)
+            if download.unfinished and not isinstance(reason.__cause__, Stopped):
+                c.waiting.unfinished = True
+                c.link.submit(recover(c.waiting, c.nonces), Priority.USER, "download")
+            c.notify(NoticeKind.DOWNLOAD, str(reason))
+            raise
+        c.set_listing(download.text)
+        c.notify(NoticeKind.DOWNLOAD, done.sentence)
+        return done
+
+    def upload(self, progress: Callable[[Job[str]], None] | None = None) -> Job[str]:
+        job: Job[str] = Job(progress)
+        job.future = self._c.run(self._uploading(job), Priority.DOWNLOAD, "download")
+        return job
+
+    def _uploading(self, job: Job[str]) -> Steps[str]:
+        text = yield from upload_steps(self._c.nonces, job)
+        self._c.set_listing(text)
+        return text
+
+    def burn_program(self) -> Future[Reply]:
+        """BP: up to 10 s; not while anything runs or moves."""
+        return self._c.run(commands.typed(self._c, "BP", 15.0), Priority.USER, "user")
+
+    def burn_parameters(self) -> Future[Reply]:
+        return self._c.run(commands.typed(self._c, "BN", 3.0), Priority.USER, "user")
+
+    def burn_variables(self) -> Future[Reply]:
+        return self._c.run(commands.typed(self._c, "BV", 5.0), Priority.USER, "user")
+
+    def burn_words(self) -> str:
+        """What the next power-up will do once the program is burned."""
+        listing = self._c.listing
+        if listing is None:
+            return (
+                "The program in the controller is unknown. Burned, it will be there after the next power-up; "
+                "if it has an #AUTO it starts by itself."
+            )
+        if re.search(r"(?m)(^|;)\s*#\s*AUTO\b", listing):
+            return (
+                "At the next power-up this program starts by itself at #AUTO: "
+                "the machine may move as soon as it is switched on."
+            )
+        return "At the next power-up this program is in the controller but does not start: it has no #AUTO."
+
+
+class Motion:
+    """Moving by hand: a lease held by one axis at a time."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+        self._lease: Lease | None = None
+
+    def hold(self, axis: str, speed_counts_s: float, acceleration: float, deceleration: float) -> Future[None]:
+        """Moves while `renew` is called at least every 150 ms."""
+        self.release()
+        c = self._c
+        c._used = c.clock()
+        speed = math.trunc(speed_counts_s)
+        lease = Lease(axis, speed, math.trunc(acceleration), math.trunc(deceleration), c.clock, c.nonces)
+        lease.renew()
+        self._lease = lease
+        return c.run(lease.steps(), Priority.LEASE, "user")
+
+    def renew(self) -> None:
+        if self._lease is not None:
+            self._lease.renew()
+
+    def release(self) -> None:
+        if self._lease is not None:
+            self._lease.release()
+            self._lease = None
+
+
+class Io:
+    """Outputs by hand."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+
+    def set_output(self, number: int, on: bool) -> Future[Reply]:
+        """Switches one output; needs Control and I/O control."""
+        if not self._c.io_control:
+            future: Future[Reply] = Future()
+            future.set_exception(NotAllowed("Not sent: switch I/O control on to set outputs by hand."))
+            return future
+        return self._c.ask(f"{'SB' if on else 'CB'} {number}")

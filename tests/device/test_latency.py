@@ -1,0 +1,122 @@
+"""STOP in real time: from the call to the moment the simulated port has clocked in its last byte, and over real ports."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from device.api import Controller, Kind, State, StopState
+from device.simulator.process import SimulatorProcess
+from device.transport import LineSettings, open_transport
+from tests.long import count, record
+
+LISTING = "\n".join(["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(400)), "EN"])
+LIMIT_MS = {19200: 60.0, 9600: 110.0}
+
+
+def wait_until(true: Callable[[], bool], seconds: float = 15.0) -> None:
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end, f"not within {seconds} s"
+        time.sleep(0.002)
+
+
+@contextmanager
+def connected(
+    baud: int, *, pty: bool = False, folder: Path | None = None
+) -> Iterator[tuple[SimulatorProcess, Controller]]:
+    line = LineSettings(baud=baud)
+    with SimulatorProcess("ssc4", baud=baud, pty=pty) as process:
+        controller = Controller(
+            lambda: open_transport(process.address, line), kind=Kind.SIMULATOR, line=line, program_folder=folder
+        )
+        try:
+            wait_until(lambda: controller.state is State.READY)
+            controller.watch("all", controller.columns)
+            yield process, controller
+        finally:
+            controller.close()
+
+
+def clocked_in(process: SimulatorProcess, pressed: float) -> float:
+    """Seconds from the press to the last byte of the stop, by the serving process's own clock of arrivals."""
+    for _ in range(200):
+        late = [(at, byte) for at, byte in process.state()["received"] if at >= pressed]
+        text = bytes(int(byte) for _, byte in late)
+        burst = text.find(b"\x1b\x5cST\rST\r")
+        place = burst + 7 if burst >= 0 else text.find(b"ST\rH") + 2
+        if place >= 2:
+            return float(late[place][0]) - pressed
+        time.sleep(0.002)
+    raise AssertionError("the stop never arrived")
+
+
+def busy(controller: Controller, load: str) -> None:
+    """Puts the line under load."""
+    if load == "download":
+        job = controller.download(LISTING)
+        wait_until(lambda: job.phase == "sending" and job.done > 5)
+    elif load == "upload":
+        controller.upload()
+        time.sleep(0.05)
+    else:
+        wait_until(lambda: controller.polling)
+
+
+@pytest.mark.alone
+@pytest.mark.timeout(3600)
+@pytest.mark.parametrize("baud", [19200, 9600])
+def test_latency_of_stop(baud: int) -> None:
+    taken: list[float] = []
+    with connected(baud) as (process, controller):
+        controller.download(LISTING).future.result(120)
+        for trial in range(count(21, 501)):
+            busy(controller, ("polling", "upload", "download")[trial % 3])
+            time.sleep((trial * 37 % 50) / 1000)
+            pressed = time.monotonic()
+            controller.stop()
+            taken.append(clocked_in(process, pressed) * 1000)
+            wait_until(lambda: controller.stop_state is StopState.STOPPED)
+            wait_until(lambda: controller.polling)
+    taken.sort()
+    p99 = taken[min(int(len(taken) * 0.99), len(taken) - 1)]
+    record(f"stop latency p99 at {baud}", "pytest tests/device/test_latency.py", 0, p99, "ms")
+    print(f"stop latency at {baud}: median {taken[len(taken) // 2]:.1f} ms, p99 {p99:.1f} ms, worst {taken[-1]:.1f} ms")
+    assert p99 <= LIMIT_MS[baud]
+
+
+@pytest.mark.alone
+@pytest.mark.parametrize(
+    "pty", [False, pytest.param(True, marks=pytest.mark.skipif(sys.platform == "win32", reason="no pty"))]
+)
+@pytest.mark.parametrize("typed", [[], ["DL", "#A"], ["QD Q[],0,9", "1"], ["ED"], ["XQ #B"]])
+def test_stop_over_real_ports(pty: bool, typed: list[str]) -> None:
+    with connected(19200, pty=pty) as (process, controller):
+        controller.download('#B\nIN "HOW MANY",N\nJP #B').future.result(20)
+        for line in ["DM Q[10]", "SH", "JG 50000;BG X", *typed]:
+            assert controller.ask(line).result(5).accepted
+        wait_until(lambda: process.state()["axes"]["X"]["moving"])
+        controller.stop()
+        wait_until(lambda: controller.stop_state is StopState.STOPPED)
+        state = process.state()
+        assert not any(axis["moving"] for axis in state["axes"].values())
+        assert not any(thread["running"] for thread in state["threads"])
+        held = controller.upload().future.result(20)
+        assert "ST" not in held.replace("\n", ";").split(";")
+
+
+@pytest.mark.alone
+def test_a_dead_simulator_is_not_confirmed_within_half_a_second() -> None:
+    with connected(19200) as (process, controller):
+        wait_until(lambda: controller.polling)
+        process.stop_answering() if hasattr(process, "stop_answering") else process._process.kill()
+        pressed = time.monotonic()
+        controller.stop()
+        wait_until(lambda: controller.stop_state in (StopState.NOT_CONFIRMED, StopState.NO_LINK), 2.0)
+        assert time.monotonic() - pressed <= 0.55
+        assert controller.stop_state is StopState.NOT_CONFIRMED
