@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 import sys
 from pathlib import Path
 
@@ -15,13 +16,29 @@ NO_DISPLAY = "no display to open a window on; run the headless demo with: twolet
 HEADLESS_PLATFORMS = ("offscreen", "minimal", "vnc")
 
 
+def answers(display: str) -> bool:
+    """Whether an X server of this computer answers; one of another computer is believed to."""
+    host, _, number = display.rpartition(":")
+    if host not in ("", "unix") or not hasattr(socket, "AF_UNIX"):
+        return True
+    path = f"/tmp/.X11-unix/X{number.split('.')[0]}"
+    for address in (path, f"\0{path}"):
+        with socket.socket(socket.AF_UNIX) as probe:
+            if probe.connect_ex(address) == 0:
+                return True
+    return False
+
+
 def display_is_there() -> bool:
     """Whether a window could open: always tried on Windows and macOS, a display server elsewhere."""
     if sys.platform in ("win32", "darwin"):
         return True
     if os.environ.get("QT_QPA_PLATFORM", "").split(":")[0] in HEADLESS_PLATFORMS:
         return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    if os.environ.get("WAYLAND_DISPLAY"):
+        return True
+    display = os.environ.get("DISPLAY", "")
+    return bool(display) and answers(display)
 
 
 def way_to_connect(simulator: str | None, port: str | None, offline: bool) -> str:
@@ -44,6 +61,11 @@ def open_studio(arguments: list[str]) -> int:
         raise Failure(f"{path}: no such file, and no such call")
     if not display_is_there():
         raise Failure(NO_DISPLAY, UNUSABLE)
-    from app.studio import run_studio
+    try:
+        from app.studio import run_studio
+    except ImportError as missing:
+        raise Failure(
+            f"the windows can not be loaded ({missing}); run ./studio, it installs what is missing"
+        ) from missing
 
     return run_studio(path, connect)

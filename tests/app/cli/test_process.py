@@ -31,6 +31,12 @@ def test_without_a_display_one_line_names_the_demo() -> None:
     assert "Traceback" not in done.stderr
 
 
+def test_a_display_that_does_not_answer_is_none() -> None:
+    done = called("--offline", DISPLAY=":97531")
+    if sys.platform.startswith("linux"):
+        assert done.returncode == 2 and done.stderr.count("\n") == 1 and "twoletter demo" in done.stderr
+
+
 def test_version() -> None:
     done = called("--version")
     assert done.returncode == 0 and done.stdout.startswith("twoletter ")
