@@ -1,0 +1,1 @@
+"""Transcripts of whole sessions with a simulated controller."""
