@@ -107,7 +107,11 @@ class Compiled:
 
 def compiled(instruction: Instruction, setup: Setup) -> Compiled:
     """Everything about one instruction that does not depend on its place."""
-    return _compiled(instruction, needed(instruction, setup))
+    made: Compiled | None = instruction.recall("_compiled", setup)
+    if made is None:
+        made = _compiled(instruction, needed(instruction, setup))
+        instruction.remember("_compiled", setup, made)
+    return made
 
 
 @lru_cache(maxsize=32768)

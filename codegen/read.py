@@ -184,7 +184,11 @@ def _sentence_of(item: Any, setup: Setup) -> str:
 
 def sentence(instruction: Instruction, setup: Setup) -> str:
     """The instruction in one line of plain English, with values and units."""
-    return _sentence(instruction, needed(instruction, setup))
+    text: str | None = instruction.recall("_sentence", setup)
+    if text is None:
+        text = _sentence(instruction, needed(instruction, setup))
+        instruction.remember("_sentence", setup, text)
+    return text
 
 
 @lru_cache(maxsize=32768)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from enum import StrEnum
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
     from codegen.setup import Setup
@@ -40,6 +40,18 @@ class Instruction:
     needs: ClassVar[str] = ""  # why no controller of ours can do it ("" = they can)
     was: ClassVar[tuple[str, ...]] = ()  # former class names in files
     renamed: ClassVar[dict[str, str]] = {}  # former field name -> present one
+
+    def recall(self, what: str, setup: Setup) -> Any:
+        """What was worked out for this very instance on that setup; None when nothing was."""
+        kept = self.__dict__.get(what)
+        return kept[1] if kept is not None and kept[0] is setup else None
+
+    def remember(self, what: str, setup: Setup, result: Any) -> None:
+        """Keeps a result with the instance, the quickest memo there is (it is no part of the value)."""
+        self.__dict__[what] = (setup, result)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in dc.fields(self)}
 
     @classmethod
     def example(cls) -> Instruction:
