@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.twoletter import nodes
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.asking import Listing
@@ -19,9 +20,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
-TELLING = frozenset(
-    ["MG", "TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TC", "TI", "SC", "RL", "LS", "LL", "LV", "LA", "QU"]
-)
+TELLING = frozenset(["MG", "LS", "LL", "LV", "LA", "QU"]) | {row.name for row in COMMANDS.values() if row.tells}
 ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
 from device.door import LEAVE, Door
+from device.stop import stop_bytes
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Send, Step, Steps, Stopped, Task, Wait
 from device.transport import LineSettings, OpenFailed, Transport, TransportLost
 from device.wire import Answer, Kind, Wire
@@ -97,9 +98,22 @@ class Link:
     # ------------------------------------------------------------ the thread
 
     def _run(self) -> None:
-        while not self._closing.is_set():
-            self.step()
-        self._shut()
+        clean = False
+        try:
+            while not self._closing.is_set():
+                self.step()
+            clean = True
+        finally:
+            if not clean:
+                self._stop_motion_first()
+            self._shut()
+
+    def _stop_motion_first(self) -> None:
+        """A fault of this program: motion ends before the fault is reported."""
+        if self.transport is not None:
+            with contextlib.suppress(TransportLost):
+                self.transport.write(stop_bytes(False, chained=self._line.address is not None))
+        self._owner.lost("The program failed inside; the controller was told to stop. Connect again.", refused=False)
 
     def _shut(self) -> None:
         """Leaves nothing half: a line begun becomes one the controller refuses, a transfer is ended."""

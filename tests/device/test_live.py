@@ -1,0 +1,136 @@
+"""Live values: right under any number format, never more than the line's share, stale when old."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from codegen.models import MODELS, model
+from device import live
+from device.poll import SHARE, requests
+from device.ring import Ring
+from device.wire import framed
+from tests.device.bench import Bench
+
+
+@pytest.mark.parametrize("name", ["ssc1", "ssc4", "dmc1412", "dmc1414"])
+def test_every_live_value_can_be_read(name: str) -> None:
+    bench = Bench(name).ready()
+    bench.controller.watch("all", bench.controller.columns)
+    bench.run(12.0)
+    row = bench.controller.last()
+    assert [key for key in bench.controller.columns if math.isnan(row.value(key))] == []
+
+
+FORMATS = ["PF 10.0", "PF 5.2", "PF -4", "VF 1.0", "VF -8.4", "LZ 1", "LZ 0", "EO 1", "CW 1", "CW 2"]
+
+
+@pytest.mark.parametrize("settings", FORMATS)
+def test_values_are_the_same_under_any_format(settings: str) -> None:
+    bench = Bench("ssc4").ready()
+    bench.controller.watch("a", ["position.x", "position.y", "inputs", "torque.x"])
+    bench.ask("DP -1234567,89")
+    bench.ask(settings)
+    bench.run(2.0)
+    row = bench.controller.last()
+    assert (row.value("position.x"), row.value("position.y"), row.value("inputs")) == (-1234567, 89, 255)
+    assert not row.stale("position.x", bench.controller.clock())
+    assert [notice for notice in bench.controller.notices() if notice.kind == "message"] == []
+
+
+def test_reading_never_clears_the_error_code() -> None:
+    bench = Bench("ssc4").ready()
+    bench.controller.watch("all", bench.controller.columns)
+    assert not bench.result(bench.controller.ask("SP 99999999")).accepted
+    bench.run(5.0)
+    assert bench.ask("TC").strip() == "006"
+
+
+@pytest.mark.parametrize("baud", [9600, 19200, 38400])
+def test_reading_takes_less_than_its_share_of_the_line(baud: int) -> None:
+    bench = Bench("ssc4", baud=baud).ready()
+    bench.controller.watch("all", bench.controller.columns)
+    bench.run(1.0)
+    bench.sent.clear()
+    bench.run(10.0)
+    assert 0.5 * SHARE <= len(bench.sent) * 10 / baud / 10.0 <= SHARE + 0.02
+
+
+def test_closing_a_panel_lowers_traffic_and_its_values_become_unknown() -> None:
+    bench = Bench("ssc4").ready()
+    controller = bench.controller
+    controller.watch("one", ["position.x"])
+    controller.watch("two", ["inputs"])
+    bench.run(1.0)
+    controller.watch("two", ())
+    bench.run(1.0)
+    row = controller.last()
+    assert math.isnan(row.value("inputs"))
+    assert row.value("position.x") == 0
+    assert controller.rate_hz > 0
+
+
+def test_a_program_runs_hardly_slower_while_it_is_watched() -> None:
+    """Its cycle time with everything read is at most 5 % longer than without (safety.md, 3)."""
+    turns: list[float] = []
+    for watched in (False, True):
+        bench = Bench("ssc4").ready()
+        bench.result(bench.controller.download("#A\nN=0\n#B\nN=N+1\nJP #B").future)
+        if watched:
+            bench.controller.watch("all", bench.controller.columns)
+        bench.result(bench.controller.execute("A", anyway=True))
+        start, before = bench.loopback.clock(), bench.simulation.state()["variables"]["N"]
+        bench.run(5.0)
+        turns.append((bench.simulation.state()["variables"]["N"] - before) / (bench.loopback.clock() - start))
+    assert turns[1] >= turns[0] / 1.05
+
+
+@pytest.mark.parametrize("name", [name for name in MODELS if name != "smartmotor"])
+def test_requests_fit_the_controllers_lines_and_hold_every_key_once(name: str) -> None:
+    found = model(name)
+    keys = live.columns(found)
+    lines = requests(keys, found.columns)
+    assert [key for line in lines for key, _, _ in line] == list(keys)
+    for line in lines:
+        assert len(framed("xx", [(expression, shape) for _, expression, shape in line])) <= found.columns
+
+
+def test_rows_keep_what_was_read_with_its_own_time() -> None:
+    ring = Ring(("a", "b"), size=8)
+    assert math.isnan(ring.last().value("a"))
+    ring.write({"a": 1.0}, 10.0)
+    ring.write({"b": 2.0}, 11.0)
+    row = ring.last()
+    assert (row.value("a"), row.time("a"), row.value("b"), row.time("b")) == (1.0, 10.0, 2.0, 11.0)
+    assert math.isnan(row.value("unknown"))
+    ring.write({"b": 3.0}, 12.0, keep=["b"])
+    assert math.isnan(ring.last().value("a"))
+
+
+def test_old_values_are_stale() -> None:
+    ring = Ring(("a",))
+    ring.period_s = 0.1
+    ring.write({"a": 1.0}, 10.0)
+    assert not ring.last().stale("a", 10.5)
+    assert ring.last().stale("a", 11.0)
+    assert ring.last().stale("b", 10.0)
+
+
+def test_the_tail_goes_round() -> None:
+    ring = Ring(("a",), size=5)
+    for number in range(12):
+        ring.write({"a": float(number)}, float(number))
+    assert np.array_equal(ring.tail(3)[:, 0], [9.0, 10.0, 11.0])
+    assert np.array_equal(ring.tail_times(2)[:, 0], [10.0, 11.0])
+    assert len(ring.tail(100)) == 4
+
+
+def test_every_row_of_the_table_is_complete() -> None:
+    for row, other in itertools.combinations(live.ROWS, 2):
+        assert row.name != other.name
+    for row in live.ROWS:
+        assert row.label and row.dimension and row.expression
+        assert ("{axis}" in row.expression) == row.per_axis
