@@ -7,8 +7,9 @@ from enum import IntFlag
 
 import numpy
 
+from device.simulator.commutation import Commutation
 from device.simulator.following import Cam, Contour
-from device.simulator.kernel import events, inputs, layout, path, profile
+from device.simulator.kernel import angle, events, inputs, layout, profile
 from device.simulator.kernel.compiled import Vector, as_state, loop_for
 from device.simulator.kernel.layout import State, axis_base
 from device.simulator.mechanics import write_period, write_plant
@@ -51,6 +52,7 @@ class Motion(Readings, Outside):
         self.path = Path(self._state, self._parts)
         self.cam = Cam(self._state, self._parts)
         self.contour = Contour(self._state, self._parts)
+        self.commutation = Commutation(self._parts, self._plants)
 
     def _power_up(self, seed: int) -> None:
         state = self._state
@@ -62,7 +64,7 @@ class Motion(Readings, Outside):
         for n in range(8):
             state[layout.INPUT_1 + n] = 1.0
         for n in range(layout.SINE_LENGTH + 1):
-            state[layout.SINE + n] = path.sine(360.0 * n / layout.SINE_LENGTH)
+            state[layout.SINE + n] = angle.sine(360.0 * n / layout.SINE_LENGTH)
         for axis in range(self.axes):
             write_defaults(state, axis_base(axis))
             write_plant(state, axis_base(axis), self._plants[axis], state[layout.PERIOD_T])

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from device.simulator.kernel import layout, path
+from device.simulator.kernel.angle import sine
 from device.simulator.kernel.layout import State
 
 LONGEST = 2147483647.0
@@ -171,7 +172,7 @@ class Path:
         error = self._room(length)
         if error:
             return error
-        centre = (self._point[0] - radius * path.sine(start + 90.0), self._point[1] - radius * path.sine(start))
+        centre = (self._point[0] - radius * sine(start + 90.0), self._point[1] - radius * sine(start))
         values = {layout.G_ARC: 1.0, layout.G_DIRECTION + 2: start, layout.G_DIRECTION + 3: sweep / length}
         for index, axis in enumerate(self.members):
             values[layout.G_START + axis] = centre[index] * self._scale[index]
@@ -179,7 +180,7 @@ class Path:
         values |= self._turn(start + math.copysign(90.0, sweep), sweep / length)
         self._add(length, speed, values)
         end = start + sweep
-        self._end_at(centre[0] + radius * path.sine(end + 90.0), centre[1] + radius * path.sine(end))
+        self._end_at(centre[0] + radius * sine(end + 90.0), centre[1] + radius * sine(end))
         self._state[layout.PATH_HEADING] += sweep
         return 0
 

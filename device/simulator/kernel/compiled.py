@@ -20,7 +20,21 @@ from device.simulator.kernel.layout import State
 
 Vector = NDArray[numpy.float64]
 Loop = Callable[[Vector, Vector, int], int]
-MODULES = ("layout", "profile", "inputs", "homing", "servo", "plant", "contour", "cam", "path", "events", "loop")
+MODULES = (
+    "layout",
+    "angle",
+    "profile",
+    "inputs",
+    "homing",
+    "servo",
+    "commutation",
+    "plant",
+    "contour",
+    "cam",
+    "path",
+    "events",
+    "loop",
+)
 # Inlining what every sample needs triples the speed; inlining the rest would only make the compiler slow.
 INLINED = ("layout", "profile", "inputs", "servo", "plant", "events", "loop")
 SELDOM = (

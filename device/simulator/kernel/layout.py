@@ -241,8 +241,27 @@ AXIS = WATCH + WATCH_STRIDE * MAXIMUM_WATCHES
     PATH_ORIGIN,  # POSITION at BGS
     PATH_END,  # coordinate at the end of the last segment given
     PATH_POINT,  # coordinate at the end of the last finished segment
-) = range(140)
-DELAY_RING = 140
+    # sine commutation
+    PHASE_MODE,  # 0: none, 1: the command turns with the phase, 2: a field held still
+    PHASE_ZERO,  # COUNTS where the controller takes its phase to be 0
+    PHASE_CYCLE,  # BM
+    PHASE_HELD,  # direction of the held field, degrees
+    PHASE_VOLTS,  # its strength
+    PHASE_DAMPING,  # volts per count/s
+    PHASE_CALIBRATE,  # 1: set the phase at the next hall transition
+    PHASE_HALL_OFFSET,  # BB, degrees
+    PHASE_HALLS,  # BI: first of three inputs, 0: none
+    MAGNETIC_CYCLE,  # of the motor, counts
+    MAGNETIC_ZERO,  # electrical angle of the motor at machine position 0, degrees
+    WIRES_SWAPPED,
+    HALL_FIRST,  # input the first hall sensor is wired to, 0: no sensors
+    HALL_ANGLE,  # from commutation zero to the sensors' zero, degrees
+    HALL_ORDER,  # which sensor is on the first, second and third of the inputs (three slots)
+    HALL_ORDER_2,
+    HALL_ORDER_3,
+    HALL_SECTOR,  # 0..5 as the controller reads its inputs, -1: no valid pattern
+) = range(158)
+DELAY_RING = 160
 MAXIMUM_DELAY = 32
 HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV
 HISTORY_LENGTH = 256

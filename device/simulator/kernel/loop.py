@@ -7,6 +7,7 @@ after the other, so that an axis that follows another one sees this sample's mas
 from __future__ import annotations
 
 from device.simulator.kernel.cam import advance_cam
+from device.simulator.kernel.commutation import read_halls
 from device.simulator.kernel.contour import advance_contour
 from device.simulator.kernel.events import measure, test_watches
 from device.simulator.kernel.homing import advance_stage
@@ -26,12 +27,14 @@ from device.simulator.kernel.layout import (
     ENCODER_SIGN,
     EVENTS,
     GEAR_MASTER,
+    HALL_FIRST,
     INPUTS,
     LOAD_V,
     MAIN_ON_LOAD,
     MOTOR_V,
     OUTPUTS,
     PATH_MOVING,
+    PHASE_HALLS,
     POSITION,
     POSITION_SHIFT,
     REFERENCE,
@@ -102,6 +105,8 @@ def sample(S: State, axes: int, moment: int) -> None:
         A = part(S, axis)
         read_encoders(S, A, axis, moment)
         read_switches(A)
+        if A[HALL_FIRST] > 0.0 or A[PHASE_HALLS] > 0.0:
+            read_halls(S, A)
     check_abort(S, axes)
     profiles(S, axes)
     for axis in range(axes):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from math import floor
 
+from device.simulator.kernel.commutation import commutated
 from device.simulator.kernel.layout import (
     BACK_V,
     COAST_DECAY,
@@ -46,6 +47,7 @@ from device.simulator.kernel.layout import (
     PEAK_CURRENT,
     PEAK_VOLTS,
     PERIOD_T,
+    PHASE_MODE,
     REGIME_APART,
     REGIME_OFF,
     REGIME_STUCK,
@@ -89,6 +91,8 @@ def rippled(S: State, A: State, volts: float) -> float:
 def amplifier(S: State, A: State) -> float:
     """Volts of command that reach the current loop: delayed, limited to the peak current, with ripple."""
     volts = delayed(A, A[COMMAND])
+    if A[PHASE_MODE] != 0.0:
+        volts = commutated(A, volts)
     if A[DRIVE] != DRIVE_VOLTAGE:
         back = A[BACK_V] * A[MOTOR_V]
         volts = clamp(volts - back, A[PEAK_VOLTS]) + back

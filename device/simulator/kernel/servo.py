@@ -29,6 +29,8 @@ from device.simulator.kernel.layout import (
     OFF_ON_ERROR,
     OFFSET,
     OUTPUT_SIGN,
+    PHASE_MODE,
+    PHASE_VOLTS,
     REFERENCE,
     SMOOTHED,
     STEP_FILTER,
@@ -102,6 +104,9 @@ def servo(S: State, A: State) -> None:
         return
     error = A[REFERENCE] - A[ACTUAL]
     A[ERROR] = error
+    if A[PHASE_MODE] == 2.0:
+        A[COMMAND] = A[PHASE_VOLTS]
+        return
     watch_error(S, A)
     derivative_error = error
     if A[DUAL_LOOP] != 0.0:

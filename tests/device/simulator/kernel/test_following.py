@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from device.simulator.kernel import path
+from device.simulator.kernel import angle
 from device.simulator.motion import Event, Motion, Register, Watch
 from device.simulator.plant import Place, Plant
 
@@ -223,7 +223,7 @@ def test_switching_the_cam_off_lets_go() -> None:
 # --- paths ------------------------------------------------------------------------------------------------------------
 def test_sine_series() -> None:
     for tenth in range(-9000, 9001, 7):
-        assert path.sine(tenth / 10) == pytest.approx(math.sin(math.radians(tenth / 10)), abs=2e-14)
+        assert angle.sine(tenth / 10) == pytest.approx(math.sin(math.radians(tenth / 10)), abs=2e-14)
 
 
 def test_linear_path_runs_through_corners_at_vector_speed() -> None:
