@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
     QFrame,
@@ -57,7 +57,6 @@ class InstructionDialog(QDialog):
         self.form.edited.connect(lambda _: self._refresh())
         self.form.show_instruction(instruction)
         self._refresh()
-        QShortcut(QKeySequence("Ctrl+Return"), self, activated=self._accept)
         self.form.fields.focus_first()
 
     # ---- looks
@@ -135,6 +134,14 @@ class InstructionDialog(QDialog):
         return row
 
     # ---- what happens
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Ctrl+Enter adds from anywhere, also out of a text of several lines."""
+        enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if enter and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self._accept()
+            return
+        super().keyPressEvent(event)
 
     def show_offers(self, offers: Offers) -> None:
         """Follows the document: other units, other names."""

@@ -131,6 +131,16 @@ class TextArea(QPlainTextEdit):
             self.setFont(look().code_font())
         self.textChanged.connect(lambda: self.changed.emit(self.toPlainText()))
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Ctrl+Enter belongs to the dialog."""
+        if (
+            event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+            and event.modifiers() & Qt.KeyboardModifier.ControlModifier
+        ):
+            event.ignore()
+            return
+        super().keyPressEvent(event)
+
     def value(self) -> str:
         return self.toPlainText()
 

@@ -198,14 +198,14 @@ class Palette(QWidget):
 
 
 def _rank(kind: type[Instruction], words: Sequence[str]) -> int | None:
-    """How well an instruction answers a search: 0 title starts so, 1 in title, 2 in group or help; None not at all."""
+    """How well an instruction answers a search: 0 is best, None not at all."""
     title = kind.title.lower()
     everything = f"{title} {str(kind.group).lower()} {kind.help.lower()}"
     if not all(word in everything for word in words):
         return None
-    if words and title.startswith(words[0]):
-        return 0
-    return 1 if all(word in title for word in words) else 2
+    if words and title.startswith(" ".join(words)):
+        return 0 if title == " ".join(words) else 1
+    return 2 if all(word in title for word in words) else 3
 
 
 def _dot(colour: QColor) -> QIcon:

@@ -1,0 +1,110 @@
+"""The rows equal the document after any edits, and rows that stay keep their identity."""
+
+from __future__ import annotations
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PySide6.QtCore import QPersistentModelIndex
+from PySide6.QtTest import QAbstractItemModelTester
+
+from codegen.document import Document
+from codegen.instructions import Repeat, Subroutine, Wait
+from codegen.program import Place, Program, Section, Step, fresh, insert, move, remove, replace
+from widgets.program.model import ProgramModel
+from widgets.program.node import Node
+from widgets.program.words import Words
+
+
+def shape(node: Node) -> object:
+    """A row and those below it, as ids."""
+    return (node.id, [shape(child) for child in node.children])
+
+
+def wanted(program: Program) -> object:
+    """What the rows must be."""
+
+    def of(step: Step) -> object:
+        return (step.id, [of(inner) for inner in step.body])
+
+    sections = [(section.value, [of(step) for step in program.section(section)]) for section in Section]
+    return ("", sections)
+
+
+def edited(program: Program, choice: tuple[int, int, int, int]) -> Program:
+    """One edit, chosen by four numbers."""
+    what, which, where, index = choice
+    steps = list(program.steps())
+    holders = [Section.MAIN.value, Section.ROUTINES.value, *(s.id for s in steps if s.instruction.container)]
+    parent = holders[where % len(holders)]
+    place = Place(parent, index % (1 + len(_children(program, parent))))
+    if what == 0 or not steps:
+        kinds = (Wait(time=str(which + 1)), Repeat(), Subroutine(name=f"S{which}"))
+        return insert(program, [fresh(program, kinds[which % 3])], place)
+    step = steps[which % len(steps)]
+    if what == 1:
+        return remove(program, [step.id])
+    if what == 2:
+        return move(program, [step.id, steps[(which + 1) % len(steps)].id], place)
+    return replace(program, Step(step.id, step.instruction, "changed", not step.enabled, step.body))
+
+
+def _children(program: Program, parent: str) -> tuple[Step, ...]:
+    if parent in tuple(Section):
+        return program.section(Section(parent))
+    return next(step.body for step in program.steps() if step.id == parent)
+
+
+CHOICES = st.tuples(st.integers(0, 3), st.integers(0, 9), st.integers(0, 9), st.integers(0, 9))
+
+
+@given(st.lists(st.lists(CHOICES, min_size=1, max_size=4), max_size=12))
+@settings(max_examples=40)
+def test_the_rows_equal_the_document_after_any_edits(batches: list[list[tuple[int, int, int, int]]]) -> None:
+    model = ProgramModel(Words())
+    tester = QAbstractItemModelTester(model, QAbstractItemModelTester.FailureReportingMode.Fatal)
+    program = Program()
+    for batch in batches:
+        for choice in batch:
+            program = edited(program, choice)
+        model.show(Document(program))
+        assert shape(model.root) == wanted(program)
+        assert [node.step for node in model.root.walk() if node.step] == list(program.steps())
+        assert all(child.row == row for node in model.root.walk() for row, child in enumerate(node.children))
+        assert set(model.nodes) == {section.value for section in Section} | {step.id for step in program.steps()}
+    assert tester.model() is model
+
+
+def test_a_step_dragged_into_a_repeat_keeps_its_row_object() -> None:
+    program = Program(main=(Step("s1", Repeat()), Step("s2", Wait(time="1")), Step("s3", Wait(time="2"))))
+    model = ProgramModel(Words())
+    model.show(Document(program))
+    kept = QPersistentModelIndex(model.index_of("s3"))
+    model.show(Document(move(program, ["s3"], Place("s1", 0))))
+    assert kept.isValid()
+    assert model.node(kept).id == "s3"
+    assert model.node(kept.parent()).id == "s1"
+
+
+def test_only_the_rows_that_changed_are_told() -> None:
+    steps = tuple(Step(f"s{number}", Wait(time=str(number + 1))) for number in range(100))
+    program = Program(main=steps)
+    model = ProgramModel(Words())
+    model.show(Document(program))
+    told: list[str] = []
+    model.dataChanged.connect(lambda first, last, roles=(): told.append(model.node(first).id))
+    model.modelReset.connect(lambda: told.append("reset"))
+    model.rowsInserted.connect(lambda *_: told.append("inserted"))
+    model.rowsRemoved.connect(lambda *_: told.append("removed"))
+    model.show(Document(replace(program, Step("s42", Wait(time="7")))))
+    assert told == ["s42"]
+    told.clear()
+    model.show(Document(move(model.shown.program, ["s0"], Place(Section.MAIN, 100))))
+    assert told == []  # a move is a move: nothing is inserted or removed
+
+
+def test_showing_the_same_document_twice_does_nothing() -> None:
+    program = Program(main=(Step("s1", Wait(time="1")),))
+    model = ProgramModel(Words())
+    model.show(Document(program))
+    model.show(Document(program))
+    assert shape(model.root) == wanted(program)
