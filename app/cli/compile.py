@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from app.cli.failure import DONE, NO, Failure
-from app.cli.sources import fitted, is_program, read_document, write_text
+from app.cli.sources import errors_of, fitted, is_program, of_two_letters, read_document, write_text
 from codegen.generate import Listing, generate
 
 
@@ -25,14 +25,15 @@ def compile(options: argparse.Namespace) -> int:
     if not is_program(path):
         raise Failure(f"{path}: not a program (.tlp)")
     document = read_document(path)
+    of_two_letters(document.setup.model, path)
     if options.controller:
-        document = fitted(document, None, options.controller)
+        document = fitted(document, None, options.controller, path)
     if options.compact:
         document = dataclasses.replace(document, compact=True)
     listing = generate(document)
-    errors = [finding for finding in listing.problems if finding.severity == "error"]
-    for finding in errors:
-        print(f"twoletter: {path}: {finding.message}", file=sys.stderr)
+    errors = errors_of(listing)
+    for message in errors:
+        print(f"twoletter: {path}: {message}", file=sys.stderr)
     if options.map:
         write_text(Path(options.map), source_map(listing))
     text = listing.text if listing.text.endswith("\n") else listing.text + "\n"

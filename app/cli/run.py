@@ -14,7 +14,7 @@ from typing import Any
 from app.cli.failure import DONE, NO, Failure
 from app.cli.limits import apply_limits
 from app.cli.report import report
-from app.cli.sources import Loaded, load_any, read_text
+from app.cli.sources import Loaded, complete, load_any, read_text
 from app.cli.stimulus import Happening, read_stimulus
 from app.cli.trace import Columns, Trace, check_ending, write_trace
 from codegen.models import Model
@@ -180,13 +180,6 @@ def perform(
     )
 
 
-def warn_of_steps(loaded: Loaded) -> None:
-    """Names the steps of a program that bring no code because something in them is wrong."""
-    for finding in loaded.listing.problems if loaded.listing else ():
-        if finding.severity == "error":
-            print(f"twoletter: {loaded.path}: {finding.message}", file=sys.stderr)
-
-
 def run(options: argparse.Namespace) -> int:
     """Runs a file and reports; 1 when the program ended with an error."""
     if options.time <= 0 or options.every < 1:
@@ -194,7 +187,7 @@ def run(options: argparse.Namespace) -> int:
     if options.trace:
         check_ending(Path(options.trace))
     loaded = load_any(Path(options.file), options.controller, options.setup)
-    warn_of_steps(loaded)
+    complete(loaded)
     name = options.stimulus or str(loaded.path)
     text = read_text(Path(options.stimulus)) if options.stimulus else loaded.stimulus
     happenings = read_stimulus(text, name) if text.strip() else []

@@ -88,25 +88,37 @@ def read_setup(path: str | None) -> Setup | None:
         raise Failure(f"{path}: {sentence(problem)}") from problem
 
 
-def fitted(document: Document, setup: Setup | None, controller: str | None) -> Document:
+def errors_of(listing: Listing) -> list[str]:
+    """What stops steps from becoming code, one sentence each."""
+    return [finding.message for finding in listing.problems if finding.severity == "error"]
+
+
+def fitted(document: Document, setup: Setup | None, controller: str | None, path: Path) -> Document:
     """The document with another setup or controller; refused when the program does not fit that controller."""
     wanted = setup or document.setup
     if controller:
         wanted = dataclasses.replace(wanted, model=controller)
+    of_two_letters(wanted.model, path)
     fitting = dataclasses.replace(document, setup=wanted)
-    for step in fitting.program.steps():
-        if step.enabled and (reason := cannot(type(step.instruction), fitting.setup)):
-            raise Failure(f"the program does not fit {wanted.model}: {reason}")
-    lines = generate(fitting).text.count("\n")
-    if lines > model(wanted.model).lines:
-        raise Failure(f"the program does not fit {wanted.model}: {lines} lines, it holds {model(wanted.model).lines}")
+    reasons = [cannot(type(step.instruction), wanted) for step in fitting.program.steps() if step.enabled]
+    known = errors_of(generate(document))
+    reasons += [message for message in errors_of(generate(fitting)) if message not in known]
+    if found := [reason for reason in reasons if reason]:
+        raise Failure(f"{path}: the program does not fit {wanted.model}: {found[0]}")
     return fitting
+
+
+def complete(loaded: Loaded) -> None:
+    """Refuses a program in which a step could not become code; what the checker finds is no reason."""
+    for line in loaded.listing.lines if loaded.listing else ():
+        if line.problem:
+            raise Failure(f"{loaded.path}: a step is not finished: {line.problem}")
 
 
 def of_two_letters(name: str, path: Path) -> Model:
     """The controller's model; SmartMotor source is another language."""
     if name == "smartmotor" or path.suffix.lower() == ".sms":
-        raise Failure(f"{path}: SmartMotor source can not be checked or run yet")
+        raise Failure(f"{path}: SmartMotor code can not be written, checked or run yet")
     return model(name)
 
 
@@ -116,7 +128,7 @@ def load_any(path: Path, controller: str | None = None, setup_path: str | None =
     if is_program(path):
         document = read_document(path)
         if setup or controller:
-            document = fitted(document, setup, controller)
+            document = fitted(document, setup, controller, path)
         listing = generate(document)
         chosen = of_two_letters(document.setup.model, path)
         return Loaded(path, listing.text, chosen, document.setup, document, listing)

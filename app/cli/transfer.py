@@ -10,7 +10,7 @@ from typing import Any
 
 from app.cli.failure import DONE, NO, Failure
 from app.cli.line import TICK_S, connected, is_machine, result_of
-from app.cli.sources import load_any, write_text
+from app.cli.sources import errors_of, load_any, write_text
 from device.api import Job
 
 
@@ -37,8 +37,8 @@ def download(options: argparse.Namespace) -> int:
     """Sends a program and reads it back; 1 when it could not be verified."""
     path = Path(options.file)
     loaded = load_any(path)
-    if loaded.listing and (errors := [each for each in loaded.listing.problems if each.severity == "error"]):
-        raise Failure(f"{path}: {errors[0].message}")
+    if loaded.listing and (errors := errors_of(loaded.listing)):
+        raise Failure(f"{path}: {errors[0]}")
     with connected(options) as controller:
         if is_machine(controller) and not options.control:
             raise Failure(f"{options.port}: downloading to a machine needs --control")

@@ -193,6 +193,34 @@ def test_a_program_with_its_own_setup(write: Write, capsys: Said) -> None:
     assert "commanded 6370 (10 in)" in capsys.readouterr().out
 
 
+def changed_cutter(write: Write, old: str, new: str) -> str:
+    """The wire cutter with one thing changed."""
+    text = Path(CUTTER).read_text(encoding="utf-8")
+    assert old in text
+    return write("changed.tlp", text.replace(old, new))
+
+
+def test_a_program_that_does_not_fit_the_controller(write: Write, capsys: Said) -> None:
+    path = changed_cutter(write, '"model": "ssc1"', '"model": "ssc2"')
+    path = write("y.tlp", Path(path).read_text().replace('"axis": "X"', '"axis": "Y"'))
+    assert main(["run", path, "--time", "1"]) == 0
+    assert main(["run", path, "--controller", "dmc1414"]) == 2
+    said = capsys.readouterr().err
+    assert "does not fit dmc1414" in said and "Y" in said and said.count("\n") == 1
+
+
+def test_an_unfinished_step_does_not_run(write: Write, capsys: Said) -> None:
+    assert main(["run", changed_cutter(write, '"time": "20"', '"time": ""')]) == 2
+    said = capsys.readouterr().err
+    assert "not finished" in said and said.count("\n") == 1
+
+
+def test_a_jump_to_nowhere_is_found_when_it_is_reached(write: Write, capsys: Said) -> None:
+    path = changed_cutter(write, '"target": "A"', '"target": "NOPE"')
+    found = ran(capsys, path, "--stimulus", write("s.csv", STIMULUS), "--time", "4", code=1)
+    assert found["stopped"] == "error" and found["axes"]["X"]["commanded"] == 6370
+
+
 def test_a_setup_gives_units_and_limits(write: Write, tmp_path: Path, capsys: Said) -> None:
     axis = Axis(unit=Unit.MM, counts_per_unit="100", forward_limit="20", error_limit="5.009")
     path = tmp_path / "machine.tls"
