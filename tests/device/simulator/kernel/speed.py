@@ -8,10 +8,10 @@ from device.simulator.motion import Motion, Register, Watch
 
 
 def moves_and_waits(motion: Motion, seconds: float) -> tuple[float, float]:
-    """Moves all axes to and fro with 100 ms rests for `seconds` of virtual time; (times real time, seconds it took)."""
+    """Moves all axes to and fro with 100 ms rests for `seconds` of virtual time; (times real time, processor seconds)."""
     for axis in range(motion.axes):
         motion.set(axis, Register.KD, 200)
-    begin, first, sign = time.perf_counter(), motion.sample, 1
+    begin, first, sign = time.process_time(), motion.sample, 1
     while motion.sample - first < seconds * 1024:
         for axis in range(motion.axes):
             motion.begin_position(axis, sign * (20000 + 3000 * axis))
@@ -25,5 +25,5 @@ def moves_and_waits(motion: Motion, seconds: float) -> tuple[float, float]:
             motion.run(100_000)
         motion.drop(number)
         sign = -sign
-    took = time.perf_counter() - begin
+    took = time.process_time() - begin
     return (motion.sample - first) / 1024 / took, took
