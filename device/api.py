@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, TypeVar
@@ -12,8 +12,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from codegen.models import Model
-from device import commands
+from codegen.models import MODELS, Model
+from device import commands, live
 from device.asking import Listing, Prompt, Waiting
 from device.commands import Reply
 from device.door import Door
@@ -73,6 +73,7 @@ class Controller:
         idle_limit_s: float = 600.0,
         clock: Callable[[], float] = time.monotonic,
         own: OwnSimulator | None = None,
+        known_models: Mapping[int, str] | None = None,
         threaded: bool = True,
     ) -> None:
         self.kind, self.line, self.clock = kind, line or LineSettings(), clock
@@ -88,22 +89,23 @@ class Controller:
         self.io_control = False
         self.listing: str | None = None
         self.program_folder = program_folder
-        self.door = Door()
+        self.door = Door(self.line.address)
         self.waiting = Waiting()
         self.nonces = nonces()
         self.poller = Poller(self.line, clock, self.nonces, self._suspended, self._read)
         self.memory = Memory(self)
         self.motion = Motion(self)
         self.io = Io(self)
-        self._expected_model = model
+        self.expected_model = model
+        self.known_models = dict(known_models or {})
         self.simulator = own
         self._notices: deque[Notice] = deque(maxlen=2000)
         self._document: str | None = None
         self._time: tuple[float, float] | None = None
         self._used = clock()
-        self._was_lost = False
         self.door.control = kind is Kind.SIMULATOR
-        self.link = Link(opener or _no_transport, self.line, Events(self), self.door, clock)
+        self._events = Events(self)
+        self.link = Link(opener or _no_transport, self.line, self._events, self.door, clock)
         if opener is not None and threaded:
             self.link.start()
 
@@ -160,6 +162,22 @@ class Controller:
         if self.simulator is not None:
             self.simulator.close()
         self.state, self.state_text, self._stop_state = State.OFFLINE, "Offline", StopState.NO_LINK
+
+    def choose_model(self, name: str) -> int | None:
+        """The person says which type an unknown controller is; the serial number to remember it by, if it has one."""
+        self.take_model(MODELS[name])
+        serial = self.identity.serial if self.identity is not None else None
+        if serial is not None:
+            self.known_models[serial] = name
+        return serial
+
+    def take_model(self, model: Model | None) -> None:
+        """The type is known now: its live values can be read."""
+        self.model = model
+        if model is not None:
+            self.poller.columns = model.columns
+            if self.poller.ring.columns != live.columns(model):
+                self.poller.set_columns(live.columns(model))
 
     @property
     def axes(self) -> str:
@@ -337,6 +355,7 @@ class Controller:
         self.state, self.state_text = State.READY, "Connected"
         self._show_stop(StopState.READY)
         self.notify(NoticeKind.CONNECTED, "The controller answers again.")
+        self.link.submit(self._events.again(), Priority.USER, "poll")
 
     # --------------------------------------------------------------- programs
 

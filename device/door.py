@@ -11,7 +11,6 @@ REVISION = b"\x12\x16"
 LEAVE = b"\x11\x1b\x5c"  # leaves editor, data mode and download; nothing in command mode
 MASTER_RESET = b"\x12\x13"
 
-UNITS = frozenset(b"%d\r" % unit for unit in range(8))  # choosing a unit of a daisy chain
 TELLS = frozenset(["TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TI", "SC", "RL"])  # never TC: reading it clears it
 LISTS = frozenset(["LS", "LL", "LV", "LA", "UL", "QU"])
 CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # reading a string or number clears its status
@@ -20,7 +19,7 @@ CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # readi
 @lru_cache(maxsize=2048)
 def only_reads(data: bytes) -> bool:
     """Whether these bytes can change nothing: listed reads, queries, or the revision."""
-    if data in (REVISION, LEAVE + b"\r", b"\r") or (data[:1] == b"%" and data[1:] in UNITS):
+    if data in (REVISION, LEAVE + b"\r", b"\r"):
         return True
     if not data.endswith(b"\r") or not data.isascii() or any(byte < 0x20 for byte in data[:-1]):
         return False
@@ -81,7 +80,8 @@ def _harmless(item: object) -> bool:
 class Door:
     """Decides for every send; the link asks it, and nothing leaves around it."""
 
-    def __init__(self) -> None:
+    def __init__(self, unit: int | None = None) -> None:
+        self._choose_unit = f"%{unit}\r".encode() if unit is not None else b""  # ours on a daisy chain
         self.control = False
         self.question = ""  # why only an answer may leave, in words
         self.erasing = False  # the confirmed action that erases the memory sets it for its one send
@@ -96,6 +96,6 @@ class Door:
             return f"Not sent: {self.question} Answer it, or press STOP."
         if MASTER_RESET in data and not self.erasing:
             return "Control-R control-S erases the controller's memory; it is sent only by its own confirmed action."
-        if not self.control and not only_reads(data):
+        if not self.control and data != self._choose_unit and not only_reads(data):
             return "Not sent: this is Watch. Take Control to move, set or download."
         return ""

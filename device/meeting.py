@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from device import commands, live
+from codegen.models import MODELS
+from device import commands
 from device.asking import Listing
 from device.download import recover, upload_steps
 from device.happenings import Kind, NoticeKind, State
@@ -45,18 +46,28 @@ class Events:
         """Identifies, learns whether a program runs and may ask, then starts reading."""
         c = self._c
         identity = yield from self._identify()
-        c.identity = identity
-        c.model = identity.model or c._expected_model
-        if c.model is not None:
-            c.poller.columns = c.model.columns
-            if c.poller.ring.columns != live.columns(c.model):
-                c.poller.set_columns(live.columns(c.model))
+        self._know(identity)
         c.waiting.restarted()
         yield from self._programs()
         c.state, c.state_text = State.READY, f"Connected: {identity.text or 'unknown controller'}"
         c._show_stop(StopState.READY)
         c.notify(NoticeKind.IDENTIFIED, f"Connected to {identity.text or 'a controller that does not name itself'}.")
+        if c.model is None:
+            c.notify(NoticeKind.IDENTIFIED, "This controller's type is not known; choose it to see live values.")
         c.link.submit(c.poller.run(), Priority.POLL, "poll")
+
+    def _know(self, identity: Identity) -> None:
+        """The type: as it says itself, as chosen before for this serial number, or as expected; never guessed."""
+        c = self._c
+        c.identity = identity
+        remembered = MODELS.get(c.known_models.get(identity.serial, "")) if identity.serial is not None else None
+        c.take_model(identity.model or remembered or c.expected_model)
+
+    def again(self) -> Steps[None]:
+        """After silence on the same line: another controller may be there now."""
+        c = self._c
+        self._know((yield from identify(c.nonces, c.line.address)))
+        yield from self._programs()
 
     def _identify(self) -> Steps[Identity]:
         c = self._c
@@ -84,6 +95,8 @@ class Events:
 
     def lost(self, sentence: str, *, refused: bool) -> None:
         c = self._c
+        if not refused and c.link.transport is not None and c.state is not State.READY:
+            return  # not met yet: whoever is asking tells
         new = c.state is not State.LOST or c.state_text != sentence
         c.state, c.state_text = State.LOST, sentence
         if c._stop_state is StopState.STOPPING:

@@ -10,6 +10,12 @@ import serial
 
 from device.transport import LineSettings, OpenFailed, TransportLost
 
+try:  # not on Windows; its error is no OSError
+    from termios import error as terminal_error
+except ImportError:
+    terminal_error = OSError  # type: ignore[assignment,misc]
+
+GONE = (serial.SerialException, OSError, TypeError, terminal_error)
 PARITY = {"none": serial.PARITY_NONE, "even": serial.PARITY_EVEN, "odd": serial.PARITY_ODD}
 
 
@@ -47,7 +53,7 @@ class SerialPort:
                 return b""
             waiting = self._port.in_waiting
             return bytes(first) + (bytes(self._port.read(waiting)) if waiting else b"")
-        except (serial.SerialException, OSError, TypeError) as reason:
+        except GONE as reason:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
 
     def write(self, data: bytes) -> int:
@@ -55,24 +61,24 @@ class SerialPort:
             written = self._port.write(data)
         except serial.SerialTimeoutException:
             return 0
-        except (serial.SerialException, OSError, TypeError) as reason:
+        except GONE as reason:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
         return len(data) if written is None else int(written)
 
     def unsent(self) -> int:
         try:
             return int(self._port.out_waiting)
-        except (serial.SerialException, OSError, TypeError) as reason:
+        except GONE as reason:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
 
     def discard_output(self) -> None:
-        with contextlib.suppress(serial.SerialException, OSError, TypeError):
+        with contextlib.suppress(*GONE):
             self._port.reset_output_buffer()
 
     def close(self) -> None:
-        with contextlib.suppress(serial.SerialException, OSError, TypeError):
+        with contextlib.suppress(*GONE):
             self._port.reset_output_buffer()
-        with contextlib.suppress(serial.SerialException, OSError, TypeError):
+        with contextlib.suppress(*GONE):
             self._port.close()
 
 
