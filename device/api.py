@@ -84,7 +84,7 @@ class Controller:
         self._stop_state = StopState.NO_LINK
         self._stopping: Stopping | None = None
         self._stop_pressed_at = 0.0
-        self.stopping_time_s = 1.0
+        self.stopping_time_s: float | None = None
         self.idle_limit_s = idle_limit_s
         self.io_control = False
         self.listing: str | None = None
@@ -191,12 +191,12 @@ class Controller:
     def stop(self) -> None:
         """Stops everything, ahead of everything; pressed again while it is not proved, it aborts."""
         if self.link.transport is None:
-            self._show_stop(StopState.NO_LINK if self.state is State.OFFLINE else StopState.NOT_CONFIRMED)
+            self.show_stop(StopState.NO_LINK if self.state is State.OFFLINE else StopState.NOT_CONFIRMED)
             return
-        again = self._stop_state in (StopState.STOPPING, StopState.NOT_CONFIRMED)
+        again = self._stopping is not None or self._stop_state is StopState.STOPPING
         self.motion.release()
         self._stopping, self._stop_pressed_at = None, self.clock()
-        self._show_stop(StopState.STOPPING)
+        self.show_stop(StopState.STOPPING)
         self.link.stop(lambda sure: self._stop_steps(sure, abort=again))
 
     def _stop_steps(self, sure: bool, *, abort: bool) -> Steps[bool]:
@@ -211,11 +211,14 @@ class Controller:
             stopping_time_s=self.stopping_time_s,
             clock=self.clock,
             nonces=self.nonces,
-            show=self._show_stop,
+            show=self.show_stop,
             abort=abort,
             heard=self._stop_pressed_at,
         )
-        still = yield from stopping.steps()
+        try:
+            still = yield from stopping.steps()
+        finally:
+            self._stopping = None
         if still:
             self.waiting.restarted()
             self.waiting.unfinished = False
@@ -230,14 +233,15 @@ class Controller:
             stopping = self._stopping
             heard = self._stop_pressed_at if stopping is None else stopping.heard
             if self.clock() - heard >= NO_ANSWER_S:
-                self._show_stop(StopState.NOT_CONFIRMED)
+                self.show_stop(StopState.NOT_CONFIRMED)
         return self._stop_state
 
     @property
     def stop_text(self) -> str:
         return str(self.stop_state)
 
-    def _show_stop(self, state: StopState) -> None:
+    def show_stop(self, state: StopState) -> None:
+        """The stop is now known to be in this state."""
         if state is not self._stop_state:
             self._stop_state = state
             self.notify(NoticeKind.STOP, f"STOP: {state}.")
@@ -353,7 +357,7 @@ class Controller:
 
     def _answers_again(self) -> None:
         self.state, self.state_text = State.READY, "Connected"
-        self._show_stop(StopState.READY)
+        self.show_stop(StopState.READY)
         self.notify(NoticeKind.CONNECTED, "The controller answers again.")
         self.link.submit(self._events.again(), Priority.USER, "poll")
 

@@ -37,6 +37,7 @@ class Listing:
         self.takes_port = any(_opens_data_mode(s) for line in self._lines for s in line.statements)
         self._next = [self._successors(number) for number in range(len(self._lines))]
         self._always = self._entries()
+        self._known: dict[frozenset[int], bool] = {}
 
     def may_ask(self, start: frozenset[int] | None) -> bool:
         """Whether a question can be reached from these lines (None: from anywhere)."""
@@ -46,8 +47,10 @@ class Listing:
             return False
         if start is None:
             return True
-        lines = self.reachable(start | self._always)
-        return any(question.line in lines for question in self.questions)
+        if start not in self._known:
+            lines = self.reachable(start | self._always)
+            self._known[start] = any(question.line in lines for question in self.questions)
+        return self._known[start]
 
     def reachable(self, start: frozenset[int]) -> frozenset[int]:
         seen: set[int] = set()

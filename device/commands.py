@@ -11,8 +11,10 @@ from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.asking import Listing
+from device.door import only_reads
 from device.download import proved, upload_steps
 from device.identify import fence
+from device.stop import StopState
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, data_line
 from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, Upload, framed
 
@@ -173,6 +175,8 @@ def sent(controller: Controller, data: bytes, source: str) -> None:
     """Keeps account of what a line changes: a program started, edited, erased; the port turned into a data port."""
     if source in ("poll", "stop") or not data.endswith(b"\r") or not data.isascii():
         return
+    if controller.stop_state is StopState.STOPPED and not only_reads(data):
+        controller.show_stop(StopState.READY)
     for statement in parse_line(data[:-1].decode("ascii")).statements:
         if not isinstance(statement, nodes.Command):
             continue

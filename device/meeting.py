@@ -50,7 +50,7 @@ class Events:
         c.waiting.restarted()
         yield from self._programs()
         c.state, c.state_text = State.READY, f"Connected: {identity.text or 'unknown controller'}"
-        c._show_stop(StopState.READY)
+        c.show_stop(StopState.READY)
         c.notify(NoticeKind.IDENTIFIED, f"Connected to {identity.text or 'a controller that does not name itself'}.")
         if c.model is None:
             c.notify(NoticeKind.IDENTIFIED, "This controller's type is not known; choose it to see live values.")
@@ -100,9 +100,9 @@ class Events:
         new = c.state is not State.LOST or c.state_text != sentence
         c.state, c.state_text = State.LOST, sentence
         if c._stop_state is StopState.STOPPING:
-            c._show_stop(StopState.NOT_CONFIRMED)
+            c.show_stop(StopState.NOT_CONFIRMED)
         elif c._stop_state is not StopState.NOT_CONFIRMED:
-            c._show_stop(StopState.NO_LINK)
+            c.show_stop(StopState.NO_LINK)
         if new:
             c.notify(NoticeKind.LOST, sentence)
         if not refused and c.kind is Kind.MACHINE:

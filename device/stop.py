@@ -26,6 +26,8 @@ from device.wire import Answer, Frame, Kind, Proof, Shape, framed
 NO_ANSWER_S = 0.5  # this long without an answer is NOT CONFIRMED
 GRACE_S = 0.3  # beyond the stopping time before AB
 GIVE_UP_S = 15.0  # a burn keeps a controller silent for up to 10 s
+LONGEST_S = 10.0  # the longest deceleration that is waited for
+UNKNOWN_S = 1.0  # where the controller does not tell how fast it decelerates
 
 
 class StopState(StrEnum):
@@ -54,7 +56,7 @@ class Stopping:
     threads: int
     columns: int
     chained: bool
-    stopping_time_s: float
+    stopping_time_s: float | None  # None: asked from the controller
     clock: Callable[[], float]
     nonces: Iterator[str]
     show: Callable[[StopState], None]
@@ -75,6 +77,8 @@ class Stopping:
             if still:
                 self.show(StopState.STOPPED)
                 return True
+            if self.stopping_time_s is None:
+                self.stopping_time_s = yield from self._ask_stopping_time()
             if not self.abort and self.clock() - start > self.stopping_time_s + GRACE_S:
                 self.abort = True
                 yield Send(stop_bytes(False, chained=self.chained, abort=True), hold=True)
@@ -92,6 +96,23 @@ class Stopping:
         self._unanswered()
         yield Send(stop_bytes(False, chained=self.chained, abort=self.abort), hold=True)
         return False
+
+    def _ask_stopping_time(self) -> Steps[float]:
+        """How long the deceleration takes: speed / DC of the slowest axis, VS / VD of a sequence."""
+        pairs = [((f"_TV{axis}", Shape(8, 0)), (f"_DC{axis}", Shape(10, 0))) for axis in self.axes]
+        pairs += [(("_VS", Shape(10, 0)), ("_VD", Shape(10, 0)))] if self.sequence else []
+        longest = 0.0
+        for pair in pairs:
+            nonce = next(self.nonces)
+            line = framed(nonce, pair).encode() + b"\r"
+            frame = Frame(nonce, (pair[0][1], pair[1][1]))
+            answer = yield Send(line, frame, self._patience(), hold=True, refusal_s=0.04)
+            if answer.kind is not Kind.VALUES:
+                return UNKNOWN_S
+            self._answered()
+            speed, deceleration = answer.values
+            longest = max(longest, abs(speed) / max(deceleration, 1.0))
+        return min(max(longest * 1.2, 0.2), LONGEST_S)
 
     def _still(self) -> Steps[bool]:
         """Whether no axis is commanded and no thread runs, read afresh."""

@@ -239,3 +239,45 @@ def test_a_cable_pulled_while_burning() -> None:
     bench.loopback.unplugged = False
     bench.run_until(lambda: bench.controller.state is State.READY, 30.0)
     assert bench.ask("TPX") == " 0000000000"
+
+
+@pytest.mark.parametrize("lost", [3, 30, 400, 1200])
+def test_a_lost_character_is_found_and_the_lines_are_sent_again_slower(lost: int) -> None:
+    """Without handshake a character may be overrun (dmc-1412-1414.txt l.1278)."""
+    bench = Bench("ssc4").ready()
+    receive, count, once = bench.simulation.receive, [0], [True]
+
+    def dropping(port: int, data: bytes) -> None:
+        for byte in data:
+            count[0] += b"DL\r" in bench.sent
+            if count[0] == lost and once[0]:
+                once[0] = False
+                continue
+            receive(port, bytes([byte]))
+
+    bench.simulation.receive = dropping  # type: ignore[method-assign]
+    bench.sent.clear()
+    done = bench.result(bench.controller.download(PROGRAM).future, 60.0)
+    assert done.verified
+    assert bench.sent.count(b"DL\r") == 2
+    assert bench.result(bench.controller.upload().future).rstrip("\n") == PROGRAM
+
+
+def test_a_character_lost_every_time_is_a_failure_in_words() -> None:
+    bench = Bench("ssc4").ready()
+    receive = bench.simulation.receive
+    bench.simulation.receive = lambda port, data: receive(port, data.replace(b"7", b""))  # type: ignore[method-assign]
+    text = fails_in_one_sentence(bench, bench.controller.download(PROGRAM))
+    assert text.startswith("Downloaded twice, but line 8 is “PR ,;SP 100;NO LINE ”")
+
+
+def test_a_lost_dl_never_runs_the_lines_as_commands() -> None:
+    """DL itself is garbled: the controller would take the lines for commands."""
+    bench = Bench("ssc4").ready()
+    bench.ask("SH")
+    receive = bench.simulation.receive
+    bench.simulation.receive = lambda port, data: receive(port, data.replace(b"DL", b"D"))  # type: ignore[method-assign]
+    text = fails_in_one_sentence(bench, bench.controller.download("PR 1000\nBG X\nEN"))
+    assert "DL was refused" in text
+    assert b"PR 1000" not in bench.sent
+    assert bench.still()

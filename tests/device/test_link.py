@@ -95,8 +95,9 @@ def test_stop_goes_before_what_is_queued() -> None:
         (b'HX;MG{^30},"da",{^31}\r', b":\x1eda\x1f\r\n:"),
         (b'MG{^30},"ea",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1eea 1-0001\x1f\r\n:"),
         (b'MG{^30},"fa",_XQ1{F4.0},{^31}\r', b"\x1efa-0001\x1f\r\n:"),
-        (b'MG{^30},"ga",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1ega 0-0001\x1f\r\n:"),
-        (b'MG{^30},"ha",_XQ1{F4.0},{^31}\r', b"\x1eha-0001\x1f\r\n:"),
+        (b'MG{^30},"ga",_TVX{F8.0},_DCX{F10.0},{^31}\r', b"\x1ega 00020000 0000256000\x1f\r\n:"),
+        (b'MG{^30},"ha",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1eha 0-0001\x1f\r\n:"),
+        (b'MG{^30},"ia",_XQ1{F4.0},{^31}\r', b"\x1eia-0001\x1f\r\n:"),
     )
     waiting = controller.ask("BG X")
     controller.stop()

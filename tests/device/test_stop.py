@@ -157,3 +157,40 @@ def test_a_program_that_takes_every_line_as_an_answer_is_not_called_stopped() ->
     bench.run(1.0)
     assert not bench.still()
     assert bench.controller.stop_state is StopState.NOT_CONFIRMED
+
+
+def test_a_long_deceleration_is_waited_for_and_not_cut_short() -> None:
+    """50 000 counts/s with DC 16 384 take 3.05 s to stop."""
+    bench = set_up("jog")
+    bench.run(1.0)
+    bench.ask("DC 16384")
+    bench.controller.stop()
+    start = bench.loopback.clock()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 6.0)
+    assert bench.loopback.clock() - start > 2.5
+    assert b"AB\r" not in bench.sent
+    assert bench.still()
+
+
+def test_pressed_again_long_after_an_unconfirmed_stop_it_stops_gently() -> None:
+    bench = set_up("jog")
+    bench.loopback.unplugged = True
+    bench.controller.stop()
+    bench.run(20.0)
+    assert bench.controller.stop_state is StopState.NOT_CONFIRMED
+    bench.loopback.unplugged = False
+    bench.run(5.0)
+    bench.sent.clear()
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
+    assert b"AB\r" not in bench.sent
+
+
+def test_after_the_next_command_the_button_is_ready_again() -> None:
+    bench = set_up("still")
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
+    bench.ask("TPX")
+    assert bench.controller.stop_state is StopState.STOPPED
+    bench.ask("SP 1000")
+    assert bench.controller.stop_state is StopState.READY
