@@ -43,7 +43,7 @@ class Moves(Readings):
     def begin_position(self, axis: int, target: int) -> None:
         """Starts a move to `target`, as RP will read at its end."""
         way = target - self._state[axis_base(axis) + layout.REFERENCE]
-        b = self._begin(axis, layout.MODE_POSITION, float(numpy.sign(way)))
+        b = self._begin(axis, layout.MODE_POSITION, float((way > 0) - (way < 0)))
         self._state[b + layout.TARGET] = float(target)
 
     def begin_jog(self, axis: int) -> None:

@@ -8,7 +8,7 @@ from device.simulator.motion import Motion, Register, Watch
 
 
 def moves_and_waits(motion: Motion, seconds: float) -> tuple[float, float]:
-    """Moves all axes to and fro with 100 ms rests for `seconds` of virtual time; (times real time, processor seconds)."""
+    """Moves all axes to and fro with 100 ms rests for `seconds` of virtual time; (times real time, CPU seconds)."""
     for axis in range(motion.axes):
         motion.set(axis, Register.KD, 200)
     begin, first, sign = time.process_time(), motion.sample, 1
