@@ -71,6 +71,7 @@ ROWS: tuple[Row, ...] = (
     Row("layout_program", "Layout: Program", "View", "Instructions and program in front", "", "layout"),
     Row("layout_run", "Layout: Run", "View", "Display and messages in front", "", "display"),
     Row("panels", "Panels", "View", "Shows and hides panels"),
+    Row("floats", "Panel in a window of its own", "View", "Takes a panel out of the window, or puts it back"),
     Row("theme_system", "Colours as the system", "View", "Light or dark as the system has it", "", "lamp",
         checkable=True),
     Row("theme_light", "Light colours", "View", "Dark on light", "", "light", checkable=True),
@@ -217,4 +218,4 @@ class Actions(QObject):
         return action
 
 
-SUBMENUS = frozenset({"recent", "panels"})
+SUBMENUS = frozenset({"recent", "panels", "floats"})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QObject, Signal
 
@@ -104,6 +104,13 @@ class Simulated:
         if self._process is None:
             raise ValueError("it is still starting")
         self._process.stimulus(signal, value)
+
+    def state(self) -> dict[str, Any]:
+        """Everything the simulated controller knows, as `run --json` has it; ValueError while it is still starting."""
+        if self._process is None:
+            raise ValueError("it is still starting")
+        state: dict[str, Any] = self._process.state()
+        return state
 
     def close(self) -> None:
         """Ends the process."""

@@ -24,6 +24,7 @@ class Dock(QDockWidget):
         self.stop_button: StopButton | None = None
         self.setWidget(self._framed(content) if moves else content)
         self.topLevelChanged.connect(self._floats)
+        self._no_title = QWidget()
 
     def show_state(self, kind: Kind, state: StopState) -> None:
         """What is connected, and what has become of the last stop."""
@@ -48,6 +49,13 @@ class Dock(QDockWidget):
         column.addWidget(content, 1)
         return self.frame
 
+    def show_title(self, shown: bool) -> None:
+        """A dock among tabs needs no title row: its tab says it."""
+        wanted = None if shown else self._no_title
+        if (self.titleBarWidget() is self._no_title) == shown:
+            self.setTitleBarWidget(wanted)  # type: ignore[arg-type]
+
     def _floats(self, floating: bool) -> None:
+        self.show_title(True)
         if self.stop_button is not None:
             self.stop_button.setVisible(floating)

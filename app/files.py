@@ -134,4 +134,5 @@ class Files(QObject):
 def _sentence(error: Exception, path: Path | None) -> str:
     if isinstance(error, OSError) and error.strerror:
         return f"{path}: {error.strerror}."
-    return str(error)
+    sentence = str(error)
+    return sentence if path is None or path.name in sentence else f"{path}: {sentence}"

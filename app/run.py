@@ -52,9 +52,11 @@ class Run(QObject):
                 "problem",
             )
             return
-        self._begin(
-            "Downloading", self._connection.controller.download(listing.text), lambda done: self._downloaded(done, then)
-        )
+        mismatch = self._mismatch()
+        if mismatch:
+            self._ask("Another controller", mismatch, [("Download anyway", lambda: self._download(then))], "warning")
+        else:
+            self._download(then)
 
     def _mismatch(self) -> str:
         """Why this program may not be for this controller; empty when it is."""
@@ -62,8 +64,8 @@ class Run(QObject):
         if found is None or found == wanted:
             return ""
         return (
-            f"The program is written for {wanted.name.upper()} ({len(wanted.axes)} axes), but {found.name.upper()} "
-            f"({len(found.axes)} axes) is connected. Change the model in the setup, or download all the same."
+            f"The program is written for {wanted.name.upper()} ({wanted.axes}), but {found.name.upper()} "
+            f"({found.axes}) is connected. Change the model in the setup, or download all the same."
         )
 
     def _download(self, then: Callable[[], None] | None) -> None:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from PySide6.QtCore import QByteArray, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QShowEvent
-from PySide6.QtWidgets import QMainWindow, QMenu, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMainWindow, QMenu, QTabBar, QVBoxLayout, QWidget
 
 from app.docks import Dock
 from app.header import Header
@@ -42,7 +42,11 @@ class Window(QMainWindow):
         self.setMenuWidget(self.header)
         self.setStatusBar(self.status)
         self.docks: dict[str, Dock] = {}
-        self.submenus = {"recent": QMenu("Open recent"), "panels": QMenu("Panels")}
+        self.submenus = {
+            "recent": QMenu("Open recent"),
+            "panels": QMenu("Panels"),
+            "floats": QMenu("Panel in a window of its own"),
+        }
         self._areas: dict[Qt.DockWidgetArea, list[Dock]] = {}
         self._was_shown = False
         self._shown: tuple[str, Kind] | None = None
@@ -63,7 +67,11 @@ class Window(QMainWindow):
         dock.hide()
         self._areas.setdefault(area, []).append(dock)
         self.docks[title] = dock
-        self.submenus["panels"].addAction(dock.toggleViewAction())
+        panels, floats = self.submenus["panels"], self.submenus["floats"]
+        panels.addAction(dock.toggleViewAction())
+        floats.addAction(title, lambda: dock.setFloating(not dock.isFloating()))
+        for signal in (dock.dockLocationChanged, dock.visibilityChanged, dock.topLevelChanged):
+            signal.connect(lambda *_: QTimer.singleShot(0, self.show_titles))
         return dock
 
     def show_title(self, name: str, kind: Kind) -> None:
@@ -94,6 +102,23 @@ class Window(QMainWindow):
         for title in front:
             self.docks[title].raise_()
         self._size_docks()
+
+    def show_titles(self) -> None:
+        """Docks among tabs have no title row; double click on the tab makes them float."""
+        for dock in self.docks.values():
+            beside = [each for each in self.tabifiedDockWidgets(dock) if not each.isHidden()]
+            dock.show_title(dock.isFloating() or not beside)
+        for bar in self.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
+            if not bar.property("floats"):
+                bar.setProperty("floats", True)
+                bar.setAccessibleName("Panels")
+                bar.setToolTip("Double click: in a window of its own")
+                bar.tabBarDoubleClicked.connect(lambda index, bar=bar: self._float(bar.tabText(index)))
+
+    def _float(self, title: str) -> None:
+        for dock in self.docks.values():
+            if dock.windowTitle() == title:
+                dock.setFloating(True)
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)

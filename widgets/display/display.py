@@ -83,6 +83,16 @@ class DisplayPanel(Panel):
         self._show_rate()
         self._show_io_control()
 
+    def words(self) -> str:
+        """Everything it shows, as text."""
+        if self.empty.isVisibleTo(self):
+            return self.empty.text()
+        axes = [f"{readout.accessibleName()}, {readout.commanded.text()}" for readout in self.axes.values()]
+        inputs = [f"input {lamp.words}" for lamp in self.inputs.lamps]
+        outputs = [f"output {lamp.words}" for lamp in self.outputs.lamps]
+        switches = [" ".join(self.switches.words(letter)) for letter in self.axes]
+        return "\n".join([self.rate.text(), *axes, *inputs, *outputs, *switches, *self.threads.words()])
+
     def _show_rate(self) -> None:
         controller = self.controller
         assert controller is not None

@@ -6,6 +6,7 @@ import math
 
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
+from codegen.twoletter.commands import COMMANDS
 from widgets.panel import set_text
 from widgets.parts.look import look
 
@@ -34,36 +35,18 @@ class ThreadList(QWidget):
                 set_text(label, thread_words(number, lines[number], source))
 
     def words(self) -> list[str]:
-        """What is shown now."""
+        """What is shown now, one line a thread."""
         return [label.text() for label in self._rows if not label.isHidden()]
 
 
-WAITS = {
-    "AM": "the end of the move",
-    "MC": "the axis to be in position",
-    "AI": "an input",
-    "AD": "a distance",
-    "AR": "a distance",
-    "AP": "a position",
-    "MF": "a position",
-    "MR": "a position",
-    "AS": "full speed",
-    "AT": "a time",
-    "AV": "a vector distance",
-    "WT": "a time",
-    "WC": "the contour",
-    "IN": "an answer",
-}
-
-
 def thread_words(number: int, line: float, source: list[str]) -> str:
-    """ "▲ Thread 0: line 4, waiting for an input (AI 1)"."""
+    """ "▲ Thread 0: line 4, waiting: after input (AI 1)"."""
     if not math.isfinite(line):
         return f"?  Thread {number}: not known"
     if line < 0:
         return f"■  Thread {number}: not running"
     at = int(line)
     text = source[at].strip() if at < len(source) else ""
-    waits = WAITS.get(text[:2].upper())
-    doing = f", waiting for {waits} ({text})" if waits else f"  ({text})" if text else ""
-    return f"▲  Thread {number}: line {at}{doing}"
+    row = COMMANDS.get(text[:2].upper())
+    waits = f"waiting: {row.title.lower()} " if row is not None and row.trippoint else ""
+    return f"▲  Thread {number}: line {at}" + (f", {waits}({text})" if text else "")

@@ -1,0 +1,147 @@
+"""Every control of every window: it has a name for screen readers and can be reached by keyboard."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractItemView,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QLineEdit,
+    QPlainTextEdit,
+    QSlider,
+    QTabBar,
+    QTextEdit,
+    QWidget,
+)
+
+from tests.app.test_stop import PLACES
+from tests.stage import Stage
+
+CONTROLS = (
+    QAbstractButton,
+    QComboBox,
+    QLineEdit,
+    QAbstractSpinBox,
+    QSlider,
+    QPlainTextEdit,
+    QTextEdit,
+    QAbstractItemView,
+)
+INSIDE = (QComboBox, QAbstractSpinBox)  # their own parts are not controls by themselves
+
+
+def controls(window: QWidget) -> list[QWidget]:
+    """Visible controls that are not parts of another one."""
+    found = []
+    for widget in window.findChildren(QWidget):
+        if not isinstance(widget, CONTROLS) or not widget.isVisibleTo(window) or _is_part(widget):
+            continue
+        found.append(widget)
+    return found
+
+
+def _is_part(widget: QWidget) -> bool:
+    if widget.objectName().startswith("qt_") or isinstance(widget.parentWidget(), QTabBar):
+        return True
+    parent = widget.parentWidget()
+    while parent is not None:
+        if isinstance(parent, (*INSIDE, QAbstractItemView)):
+            return True
+        parent = parent.parentWidget()
+    return False
+
+
+def name_of(widget: QWidget) -> str:
+    """What a screen reader says."""
+    text = widget.text() if isinstance(widget, QAbstractButton) else ""
+    return widget.accessibleName() or text or (widget.toolTip() if isinstance(widget, QAbstractButton) else "")
+
+
+def describe(widget: QWidget) -> str:
+    chain, each = [], widget
+    while each is not None:
+        chain.append(f"{type(each).__name__}#{each.objectName()}")
+        each = each.parentWidget()
+    return " < ".join(chain[:6])
+
+
+def reachable(widget: QWidget) -> bool:
+    return bool(widget.focusPolicy() & Qt.FocusPolicy.TabFocus)
+
+
+@pytest.mark.parametrize("place", [name for name in PLACES if name not in ("the program", "a file dialog")])
+def test_every_control_has_a_name(place: str, stage: Stage) -> None:
+    stage.connect("simulator")
+    window = PLACES[place](stage).window()
+    stage.go()
+    nameless = [describe(widget) for widget in controls(window) if not name_of(widget)]
+    assert nameless == []
+
+
+@pytest.mark.parametrize("place", [name for name in PLACES if name not in ("the program", "a file dialog")])
+def test_every_control_is_reached_by_tab(place: str, stage: Stage) -> None:
+    stage.connect("simulator")
+    window = PLACES[place](stage).window()
+    stage.go()
+    lost = [describe(w) for w in controls(window) if w.isEnabled() and not reachable(w) and not _read_only(w)]
+    assert lost == []
+
+
+def _read_only(widget: QWidget) -> bool:
+    """Lamps that only show; buttons of the dock's own title, which the menu View > Panels does too."""
+    from widgets.parts.lamp import Lamp
+
+    title = type(widget).__name__ == "QDockWidgetTitleButton" or widget.objectName().startswith("qt_dockwidget")
+    clear = isinstance(widget.parentWidget(), QLineEdit)
+    return title or clear or isinstance(widget, Lamp)
+
+
+def test_tab_walks_through_the_window_and_comes_back(stage: Stage) -> None:
+    window = stage.studio.window
+    window.activateWindow()
+    stage.studio.program.tree.setFocus()
+    seen: list[QWidget] = []
+    widget: QWidget = stage.studio.program.tree
+    for _ in range(400):
+        nxt = widget.nextInFocusChain()
+        if nxt is stage.studio.program.tree:
+            break
+        widget = nxt
+        seen.append(widget)
+    else:
+        pytest.fail("the focus chain does not close")
+    for button in (window.header.stop, window.header.switch.watch, stage.studio.terminal.line):
+        assert button in seen
+
+
+@pytest.mark.parametrize("title", ["Instructions", "Display", "Simulator", "Messages", "Terminal", "Problems"])
+def test_every_panel_can_be_brought_to_the_front_from_the_menu(stage: Stage, title: str) -> None:
+    actions = {action.text().split(" ")[0]: action for action in stage.studio.window.submenus["panels"].actions()}
+    dock = stage.studio.window.docks[title]
+    dock.hide()
+    actions[title].trigger()
+    QApplication.processEvents()
+    assert dock.isVisible()
+
+
+HEIGHTS: dict[str, Callable[[Stage], QWidget]] = PLACES
+
+
+@pytest.mark.parametrize("place", ["the window", "the welcome window", "the serial setup", "the setup", "a question"])
+def test_buttons_and_fields_are_at_least_32_px_high(place: str, stage: Stage) -> None:
+    stage.connect("simulator")
+    window = HEIGHTS[place](stage).window()
+    stage.go()
+    kinds = (QComboBox, QLineEdit, QAbstractSpinBox)
+    low = [
+        (describe(widget), widget.height())
+        for widget in controls(window)
+        if isinstance(widget, kinds) and widget.height() < 32
+    ]
+    assert low == []

@@ -1,0 +1,231 @@
+"""From start to a connection: the search asks before writing, nothing falls back to the simulator by itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QPushButton
+
+from app.search import Candidate
+from app.studio import begin
+from device.api import Kind, State
+from tests.stage import Stage
+
+KNOWN = Candidate("/dev/ttyS0", "COM port", True)
+NEW = Candidate("/dev/ttyUSB0", "USB serial adapter", False)
+
+
+def use(stage: Stage, *ports: Candidate) -> None:
+    """The ports of this computer; those used before are in the settings."""
+    stage.ports[:] = ports
+    stage.studio.settings.set("ports_used", [port.device for port in ports if port.used_before])
+
+
+def press(button: QPushButton) -> None:
+    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def test_without_a_known_port_the_studio_opens_on_the_simulator_with_the_sample(stage: Stage) -> None:
+    use(stage, NEW)
+    begin(stage.studio, None, "ask")
+    assert stage.controllers[-1].kind is Kind.SIMULATOR
+    assert [controller.kind for controller in stage.controllers] == [Kind.SIMULATOR]
+    assert stage.studio.session.document.program.name == "CUTTER"
+    assert stage.studio.session.path is None
+    assert not stage.studio.session.dirty
+
+
+def test_a_known_port_is_tried_first_and_taken_when_it_answers(stage: Stage) -> None:
+    use(stage, KNOWN)
+    begin(stage.studio, None, "ask")
+    assert [controller.kind for controller in stage.controllers] == [Kind.MACHINE]
+    stage.go()
+    assert stage.studio.connection.controller is stage.controllers[0]
+    assert stage.studio.start.welcome is not None
+    assert not stage.studio.start.welcome.isVisible()
+
+
+def test_a_silent_port_ends_in_the_welcome_window_never_in_the_simulator(stage: Stage) -> None:
+    use(stage, KNOWN)
+    begin(stage.studio, None, "ask")
+    stage.controllers[0].state = State.CONNECTING
+    stage.go()
+    assert stage.studio.search.busy
+    stage.later(5.0)
+    stage.go()
+    welcome = stage.studio.start.welcome_window()
+    assert welcome.isVisible()
+    assert "No controller" in welcome.heading.text()
+    assert "/dev/ttyS0" in welcome.sentence.text()
+    assert stage.studio.connection.controller.kind is Kind.OFFLINE
+    assert stage.controllers[0].closed
+
+
+def test_a_new_port_is_not_opened_before_the_person_allows_it(stage: Stage) -> None:
+    use(stage, NEW)
+    stage.studio.start.look()
+    welcome = stage.studio.start.welcome_window()
+    assert stage.controllers == []
+    assert "/dev/ttyUSB0" in welcome.question.text()
+    press(welcome.allow)
+    assert len(stage.controllers) == 1
+    stage.go()
+    assert "/dev/ttyUSB0" in stage.studio.settings.get("ports_used")
+
+
+def test_a_port_left_alone_is_never_opened(stage: Stage) -> None:
+    use(stage, NEW)
+    stage.studio.start.look()
+    press(stage.studio.start.welcome_window().skip)
+    stage.go()
+    assert stage.controllers == []
+    assert "left alone" in stage.studio.start.welcome_window().sentence.text()
+
+
+def test_without_any_port_it_says_so(stage: Stage) -> None:
+    use(stage)
+    stage.studio.start.look()
+    assert "no serial port" in stage.studio.start.welcome_window().sentence.text()
+
+
+@pytest.mark.parametrize("way", ["simulator", "serial", "setup", "offline"])
+def test_the_welcome_window_offers_what_the_manual_offers(stage: Stage, way: str) -> None:
+    # ssc-tol-o-motion.txt, chapter 5: serial communication setup, offline setup, offline programming; and a simulator
+    use(stage)
+    stage.studio.start.look()
+    press(stage.studio.start.welcome_window().ways[way])
+    stage.go()
+    shown = {
+        "simulator": lambda: stage.controller.kind is Kind.SIMULATOR,
+        "serial": lambda: stage.studio.start.serial is not None and stage.studio.start.serial.isVisible(),
+        "setup": lambda: stage.studio.desk.setup_page is not None and stage.studio.desk.setup_page.isVisible(),
+        "offline": lambda: stage.studio.start.welcome is not None and not stage.studio.start.welcome.isVisible(),
+    }
+    assert shown[way]()
+
+
+def test_try_again_looks_once_more(stage: Stage) -> None:
+    use(stage)
+    stage.studio.start.look()
+    use(stage, KNOWN)
+    press(stage.studio.start.welcome_window().again)
+    assert len(stage.controllers) == 1
+
+
+def test_the_serial_setup_connects_with_what_was_set_and_remembers_it(stage: Stage) -> None:
+    use(stage, KNOWN)
+    stage.studio.start.show_serial()
+    serial = stage.studio.start.serial
+    assert serial is not None
+    assert serial.choice.port == "/dev/ttyS0"
+    serial.baud.setCurrentIndex(serial.baud.findData(19200))
+    press(serial.connect_button)
+    assert stage.controller.kind is Kind.MACHINE
+    assert stage.studio.settings.get("baud") == 19200
+    assert stage.studio.connection.address == "/dev/ttyS0"
+
+
+def test_a_lost_machine_stays_a_lost_machine(stage: Stage) -> None:
+    stage.connect("machine").state = State.LOST
+    stage.go(10)
+    assert stage.controller.kind is Kind.MACHINE
+    assert "connection lost" in stage.studio.actions["upload"].statusTip()
+
+
+def test_another_connection_closes_the_one_before(stage: Stage) -> None:
+    first = stage.connect("machine")
+    stage.connect("simulator")
+    assert first.closed
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"), [("simulator", "simulator"), ("simulator:ssc2", "simulator"), ("port:/dev/ttyS9", "machine")]
+)
+def test_what_the_command_line_asks_for(stage: Stage, text: str, kind: str) -> None:
+    begin(stage.studio, None, text)
+    assert stage.controllers[-1].kind == kind
+
+
+def test_offline_connects_nothing(stage: Stage) -> None:
+    begin(stage.studio, None, "offline")
+    assert stage.controllers == []
+
+
+def test_a_file_that_can_not_be_opened_is_one_sentence(stage: Stage, tmp_path: Path) -> None:
+    bad = tmp_path / "bad.tlp"
+    bad.write_text("nonsense")
+    begin(stage.studio, bad, "offline")
+    question = stage.studio.desk.question
+    assert question is not None
+    assert "bad.tlp" in question.words
+    assert "\n" not in question.words
+
+
+def test_watch_and_control_are_one_switch(stage: Stage) -> None:
+    stage.connect("machine")
+    stage.go()
+    switch = stage.studio.window.header.switch
+    assert switch.watch.isChecked()
+    QTest.mouseClick(switch.control, Qt.MouseButton.LeftButton)
+    stage.go()
+    assert stage.controller.control
+    assert stage.studio.actions["take_control"].isChecked()
+    QTest.mouseClick(switch.watch, Qt.MouseButton.LeftButton)
+    stage.go()
+    assert not stage.controller.control
+
+
+def test_offline_the_switch_says_why_it_is_grey(stage: Stage) -> None:
+    switch = stage.studio.window.header.switch
+    assert not switch.control.isEnabled()
+    assert "Nothing is connected" in switch.control.toolTip()
+
+
+def test_the_question_of_a_program_is_answered_in_its_box(stage: Stage) -> None:
+    from device.api import Prompt
+
+    stage.connect("machine").pending_prompt = Prompt("Length?", (12,))
+    stage.go()
+    box = stage.studio.window.prompt
+    assert box.isVisible()
+    assert "Length?" in box.text.text()
+    assert "12" in box.text.text()
+    QTest.keyClicks(box.line, "10.5")
+    QTest.keyClick(box.line, Qt.Key.Key_Return)
+    stage.go()
+    assert ("answer", "10.5") in stage.controller.calls
+    assert not box.isVisible()
+
+
+def test_while_a_question_is_pending_nothing_can_be_typed_in_the_terminal(stage: Stage) -> None:
+    from device.api import Prompt
+
+    fake = stage.connect("simulator")
+    stage.studio.desk.bring("Terminal")
+    stage.go()
+    assert stage.studio.terminal.line.isEnabled()
+    fake.pending_prompt = Prompt("Length?", (12,))
+    stage.go()
+    assert not stage.studio.terminal.line.isEnabled()
+    assert "answer" in stage.studio.terminal.why.text()
+
+
+def test_unsaved_work_is_asked_about_before_leaving(stage: Stage) -> None:
+    stage.studio.session.set_program(name="OTHER")
+    stage.studio.window.close()
+    assert stage.studio.window.isVisible()
+    question = stage.studio.desk.question
+    assert question is not None
+    assert list(question.buttons) == ["Do not save", "Save"] or set(question.buttons) == {"Save", "Do not save"}
+
+
+def test_the_arrangement_is_remembered(stage: Stage) -> None:
+    stage.studio.window.docks["Terminal"].hide()
+    stage.studio.desk.leave()
+    kept = stage.studio.settings.get("window")
+    stage.studio.desk.arrange("Program")
+    assert stage.studio.window.restore(kept)
+    assert not stage.studio.window.docks["Terminal"].isVisible()

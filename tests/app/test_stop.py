@@ -1,0 +1,286 @@
+"""STOP: F12 and the button, in every state the windows can be in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QDialog, QFileDialog, QLineEdit, QMessageBox, QWidget
+
+from device.api import Kind, Prompt, StopState
+from tests.stage import Stage
+
+
+def press_f12(widget: QWidget | None = None) -> None:
+    """The key as the window system delivers it."""
+    target = widget or QApplication.activePopupWidget() or QApplication.activeModalWidget()
+    target = target or QApplication.focusWidget() or QApplication.activeWindow()
+    assert target is not None
+    QTest.keyClick(target, Qt.Key.Key_F12)
+
+
+def stops(stage: Stage) -> int:
+    return stage.controller.calls.count("stop")
+
+
+def _welcome(stage: Stage) -> QWidget:
+    stage.studio.start.look()
+    return stage.studio.start.welcome_window()
+
+
+def _serial(stage: Stage) -> QWidget:
+    stage.studio.start.show_serial()
+    assert stage.studio.start.serial is not None
+    return stage.studio.start.serial
+
+
+def _setup(stage: Stage) -> QWidget:
+    stage.studio.desk.show_setup()
+    assert stage.studio.desk.setup_page is not None
+    return stage.studio.desk.setup_page
+
+
+def _question(stage: Stage) -> QWidget:
+    stage.studio.desk.ask("Sure?", "Really?", [("Yes", lambda: None)])
+    assert stage.studio.desk.question is not None
+    return stage.studio.desk.question
+
+
+def _upload(stage: Stage) -> QWidget:
+    stage.studio.desk.show_upload("EN\n")
+    assert stage.studio.desk.upload is not None
+    return stage.studio.desk.upload
+
+
+def _help(stage: Stage) -> QWidget:
+    stage.studio.desk.show_help("Program window")
+    assert stage.studio.desk.help is not None
+    return stage.studio.desk.help
+
+
+def _file_dialog(stage: Stage) -> QWidget:
+    stage.studio.files.open()
+    return stage.studio.window.findChildren(QFileDialog)[-1]
+
+
+def _terminal(stage: Stage) -> QWidget:
+    stage.studio.desk.bring("Terminal")
+    stage.studio.terminal.line.setFocus()
+    stage.studio.terminal.line.setText("PR 100")
+    return stage.studio.terminal.line
+
+
+def _prompt(stage: Stage) -> QWidget:
+    stage.controller.pending_prompt = Prompt("Length?", (3,))
+    stage.go()
+    return stage.studio.window.prompt.line
+
+
+def _floating(stage: Stage) -> QWidget:
+    stage.studio.window.docks["Display"].setFloating(True)
+    stage.go()
+    return stage.studio.window.docks["Display"]
+
+
+PLACES: dict[str, Callable[[Stage], QWidget]] = {
+    "the window": lambda stage: stage.studio.window,
+    "the program": lambda stage: stage.studio.program.tree,
+    "the welcome window": _welcome,
+    "the serial setup": _serial,
+    "the setup": _setup,
+    "a question": _question,
+    "an upload": _upload,
+    "help": _help,
+    "a file dialog": _file_dialog,
+    "a half-typed command": _terminal,
+    "the answer to a program": _prompt,
+    "a floating panel": _floating,
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_f12_stops_from(place: str, stage: Stage) -> None:
+    stage.connect("machine")
+    widget = PLACES[place](stage)
+    QApplication.processEvents()
+    press_f12(widget)
+    assert stops(stage) == 1
+
+
+def test_f12_stops_inside_a_modal_dialog(stage: Stage) -> None:
+    stage.connect("machine")
+    box = QMessageBox(stage.studio.window)
+    box.setText("modal")
+    seen: list[int] = []
+
+    def press() -> None:
+        press_f12(box)
+        seen.append(stops(stage))
+        box.accept()
+
+    QTimer.singleShot(0, press)
+    box.exec()
+    assert seen == [1]
+
+
+def test_f12_stops_while_a_menu_is_open(stage: Stage) -> None:
+    stage.connect("machine")
+    menu = stage.studio.window.header.menus.actions()[0].menu()
+    menu.popup(QPoint(10, 10))  # type: ignore[union-attr]
+    press_f12(menu)  # type: ignore[arg-type]
+    assert stops(stage) == 1
+    menu.close()  # type: ignore[union-attr]
+
+
+def test_f12_stops_while_a_choice_is_open(stage: Stage) -> None:
+    stage.connect("machine")
+    serial = _serial(stage)
+    box = serial.findChildren(QComboBox)[0]
+    box.showPopup()
+    press_f12(box.view())
+    assert stops(stage) == 1
+    box.hidePopup()
+
+
+class Greedy(QObject):
+    """Swallows every key, as the filter of a running drag does."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        return isinstance(event, QKeyEvent)
+
+
+def test_f12_stops_during_a_drag(stage: Stage, qapp: QApplication) -> None:
+    stage.connect("machine")
+    greedy = Greedy()
+    qapp.installEventFilter(greedy)
+    try:
+        stage.go(1)  # the tick goes on during a drag
+        press_f12(stage.studio.program.tree)
+        assert stops(stage) == 1
+    finally:
+        qapp.removeEventFilter(greedy)
+
+
+def test_f12_stops_while_a_name_is_edited_in_place(stage: Stage) -> None:
+    stage.connect("machine")
+    line = next(each for each in stage.studio.program.findChildren(QLineEdit) if each.isVisible() and each.isEnabled())
+    line.setFocus()
+    QTest.keyClicks(line, "AB")
+    press_f12(line)
+    assert stops(stage) == 1
+
+
+def test_holding_f12_down_is_one_stop(stage: Stage) -> None:
+    stage.connect("machine")
+    window = stage.studio.window
+    for repeated in (False, True, True):
+        event = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_F12, Qt.KeyboardModifier.NoModifier, "", repeated)
+        QApplication.sendEvent(window, event)
+    assert stops(stage) == 1
+
+
+@pytest.mark.parametrize("modifier", [Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.ControlModifier])
+def test_f12_stops_with_a_modifier_held(stage: Stage, modifier: Qt.KeyboardModifier) -> None:
+    stage.connect("machine")
+    QTest.keyClick(stage.studio.window, Qt.Key.Key_F12, modifier)
+    assert stops(stage) == 1
+
+
+def test_a_second_press_is_a_second_stop(stage: Stage) -> None:
+    stage.connect("machine")
+    press_f12(stage.studio.window)
+    press_f12(stage.studio.window)
+    assert stops(stage) == 2
+
+
+@pytest.mark.parametrize("layout", ["Program", "Run"])
+def test_the_button_is_visible_in_every_layout_and_acts_when_pressed(stage: Stage, layout: str) -> None:
+    stage.connect("machine")
+    stage.studio.desk.arrange(layout)
+    stage.go()
+    button = stage.studio.window.header.stop
+    assert button.isVisible()
+    assert button.visibleRegion().boundingRect() == button.rect()
+    QTest.mousePress(button, Qt.MouseButton.LeftButton)
+    assert stops(stage) == 1
+    QTest.mouseRelease(button, Qt.MouseButton.LeftButton)
+    assert stops(stage) == 1
+
+
+@pytest.mark.parametrize("key", [Qt.Key.Key_Space, Qt.Key.Key_Return])
+def test_the_button_works_by_keyboard(stage: Stage, key: Qt.Key) -> None:
+    stage.connect("machine")
+    QTest.keyClick(stage.studio.window.header.stop, key)
+    assert stops(stage) == 1
+
+
+def test_the_button_keeps_its_place_when_the_window_is_narrow(stage: Stage) -> None:
+    stage.studio.window.resize(1024, 700)
+    stage.go()
+    button = stage.studio.window.header.stop
+    assert button.visibleRegion().boundingRect() == button.rect()
+
+
+def test_a_floating_panel_that_moves_something_has_its_own_stop(stage: Stage) -> None:
+    stage.connect("machine")
+    for title in ("Display", "Terminal", "Simulator"):
+        dock = stage.studio.window.docks[title]
+        dock.setFloating(True)
+        stage.go()
+        assert dock.stop_button is not None
+        assert dock.stop_button.isVisible()
+        before = stops(stage)
+        QTest.mousePress(dock.stop_button, Qt.MouseButton.LeftButton)
+        assert stops(stage) == before + 1
+
+
+WORDS: dict[StopState, tuple[str, str]] = {
+    StopState.READY: ("STOP", "MACHINE · ready"),
+    StopState.STOPPING: ("STOP", "MACHINE · stopping…"),
+    StopState.STOPPED: ("STOP", "MACHINE · stopped (confirmed)"),
+    StopState.NOT_CONFIRMED: ("NOT CONFIRMED", "use the machine's emergency stop"),
+    StopState.NO_LINK: ("STOP", "MACHINE · no link"),
+}
+
+
+@pytest.mark.parametrize("state", list(StopState))
+def test_the_button_says_what_has_become_of_the_stop(stage: Stage, state: StopState) -> None:
+    stage.connect("machine").stop_state = state
+    stage.go()
+    button = stage.studio.window.header.stop
+    assert button.words == WORDS[state]
+    assert button.accessibleDescription() == " - ".join(WORDS[state])
+
+
+@pytest.mark.parametrize("kind", list(Kind))
+def test_window_button_status_bar_and_panels_say_what_is_connected(stage: Stage, kind: Kind) -> None:
+    stage.connect(kind.value)
+    stage.go()
+    word, window = kind.value.upper(), stage.studio.window
+    assert word in window.windowTitle()
+    assert word in window.header.stop.words[1]
+    assert window.status.badge.text == word
+    assert window.header.switch.badge.text == word
+    for title in ("Display", "Terminal", "Simulator"):
+        frame = window.docks[title].frame
+        assert frame is not None
+        assert frame.text == word
+
+
+def test_no_word_of_ours_calls_it_an_emergency_stop(stage: Stage) -> None:
+    widgets: list[Any] = stage.studio.window.findChildren(QWidget)
+    for widget in widgets:
+        for text in (widget.toolTip(), widget.accessibleName(), widget.windowTitle()):
+            low = text.lower().replace("machine's emergency stop", "")
+            assert "emergency stop" not in low
+
+
+def test_dialogs_of_the_studio_are_never_modal(stage: Stage) -> None:
+    for make in (_welcome, _serial, _setup, _question, _upload, _help, _file_dialog):
+        dialog = make(stage)
+        assert isinstance(dialog, QDialog)
+        assert not dialog.isModal()
