@@ -7,12 +7,13 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from codegen.document import Document
-from codegen.expressions import Bad, in_counts, write
+from codegen.expressions import Bad, write
 from codegen.fields import AXES, Dimension, ListOf, PerAxis, PerAxisText, Quantity, fields_of, value_of
 from codegen.numbers import plain
 from codegen.program import Section, Steps, with_section
 from codegen.setup import Axis, Setup
 from codegen.twoletter.emit.build import is_counted
+from codegen.units import in_counts
 
 IN_UNITS = (Dimension.DISTANCE, Dimension.POSITION, Dimension.SPEED, Dimension.ACCELERATION, Dimension.ERROR)
 AXIS_VALUES = ("forward_limit", "reverse_limit", "error_limit", "maximum_speed", "maximum_acceleration")

@@ -9,22 +9,16 @@ from collections.abc import Mapping
 from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil, floor
-from typing import Any, NamedTuple
+from typing import Any
 
+from codegen import conversion
+from codegen.conversion import CALIBRATED_US, LARGEST, Sent
 from codegen.fields import AXES, Choice, Dimension, Flag, Number, Text, value
 from codegen.models import MODELS, Model
 from codegen.numbers import parse_number, plain
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.nodes import Broken
 from codegen.twoletter.parse import parse
-
-LARGEST = 2147483647  # counts; the widest position register
-ACCELERATION_STEP = 1024  # counts/s²; dmc-1412-1414.txt, AC
-FASTEST_ACCELERATION = 67107840  # counts/s²
-SPEED_STEP = 2  # counts/s
-CALIBRATED_US = 1000  # the loop rate at which speeds and accelerations are calibrated
-LARGEST_ERROR = 32767  # counts
 
 
 class Unit(StrEnum):
@@ -240,15 +234,15 @@ class Setup:
 
     def factor(self, dimension: Dimension, letter: str) -> Fraction:
         """What a value in the user's unit is multiplied with to get what the controller counts."""
-        return _factor(self, dimension, letter)
+        return conversion.factor(self, dimension, letter)
 
     def counts(self, dimension: Dimension, letter: str, number: Fraction) -> int:
         """A value as it is sent: rounded to the controller's resolution, never above a maximum."""
-        return _sent(self, dimension, letter, number).counts
+        return conversion.sent(self, dimension, letter, number).counts
 
     def sent(self, dimension: Dimension, letter: str, number: Fraction) -> Sent:
         """As `counts`, and whether rounding changed the value by more than 0.1 %."""
-        return _sent(self, dimension, letter, number)
+        return conversion.sent(self, dimension, letter, number)
 
     def from_counts(self, dimension: Dimension, letter: str, counts: int | Fraction) -> Fraction:
         """What a sent value means in the user's unit."""
@@ -256,7 +250,7 @@ class Setup:
 
     def bounds(self, dimension: Dimension, letter: str) -> tuple[Fraction, Fraction]:
         """Lowest and highest value in the user's unit that axis and controller allow."""
-        return _bounds(self, dimension, letter)
+        return conversion.bounds(self, dimension, letter)
 
     def unit_text(self, dimension: Dimension, letter: str) -> str:
         """The unit of a dimension: `in`, `in/s`, `ms`."""
@@ -276,94 +270,6 @@ class Setup:
 
     def _symbol(self, letter: str) -> str:
         return self.axis(letter).symbol if letter else "units"
-
-
-@lru_cache(maxsize=1024)
-def _factor(setup: Setup, dimension: Dimension, letter: str) -> Fraction:
-    scale = setup.axis(letter).scale if letter else Fraction(1)
-    slow = setup.sample / CALIBRATED_US
-    match dimension:
-        case Dimension.DISTANCE | Dimension.POSITION | Dimension.ERROR:
-            return scale
-        case Dimension.SPEED:
-            return scale * slow
-        case Dimension.ACCELERATION:
-            return scale * slow * slow
-        case Dimension.TIME:
-            return 1 / slow
-        case _:
-            return Fraction(1)
-
-
-class Sent(NamedTuple):
-    """What is sent for a value, and whether rounding changed it by more than 0.1 %."""
-
-    counts: int
-    moved: bool
-
-
-@lru_cache(maxsize=65536)
-def _sent(setup: Setup, dimension: Dimension, letter: str, number: Fraction) -> Sent:
-    """Whole-number arithmetic on `above`/`below`, the exact counts: this runs for every value of a program."""
-    factor = _factor(setup, dimension, letter)
-    above = number.numerator * factor.numerator
-    below = number.denominator * factor.denominator
-    match dimension:
-        case Dimension.SPEED:
-            size = abs(above) // (below * SPEED_STEP) * SPEED_STEP
-            counts = -size if above < 0 else size
-        case Dimension.ACCELERATION:
-            counts = max(_nearest(above, below * ACCELERATION_STEP) * ACCELERATION_STEP, ACCELERATION_STEP)
-            if counts * below > above:
-                highest = _bounds(setup, dimension, letter)[1] * factor
-                counts = min(counts, int(highest / ACCELERATION_STEP) * ACCELERATION_STEP)
-        case Dimension.ERROR:
-            counts = above // below
-        case _:
-            counts = _nearest(above, below)
-            if dimension is Dimension.POSITION and counts * below != above:
-                low, high = _bounds(setup, dimension, letter)
-                counts = min(max(counts, ceil(low * factor)), floor(high * factor))
-    return Sent(counts, abs(counts * below - above) * 1000 > abs(above))
-
-
-def _nearest(above: int, below: int) -> int:
-    """The whole number nearest to a quotient; a half goes away from zero."""
-    size = (2 * abs(above) + below) // (2 * below)
-    return -size if above < 0 else size
-
-
-def _given(text: str, otherwise: Fraction) -> Fraction:
-    number = parse_number(text)
-    return otherwise if number is None else number
-
-
-@lru_cache(maxsize=1024)
-def _bounds(setup: Setup, dimension: Dimension, letter: str) -> tuple[Fraction, Fraction]:
-    factor = setup.factor(dimension, letter)
-    axis = setup.axis(letter) if letter else Axis()
-    widest = LARGEST / factor
-    match dimension:
-        case Dimension.POSITION:
-            return max(_given(axis.reverse_limit, -widest), -widest), min(_given(axis.forward_limit, widest), widest)
-        case Dimension.DISTANCE:
-            low, high = parse_number(axis.reverse_limit), parse_number(axis.forward_limit)
-            travel = widest if low is None or high is None else min(high - low, widest)
-            return -travel, travel
-        case Dimension.SPEED:
-            fastest = setup.limits.stepper_max_counts_s if axis.is_stepper else setup.limits.servo_max_counts_s
-            return Fraction(0), min(_given(axis.maximum_speed, fastest / factor), fastest / factor)
-        case Dimension.ACCELERATION:
-            hardest = FASTEST_ACCELERATION / factor
-            return Fraction(0), min(_given(axis.maximum_acceleration, hardest), hardest)
-        case Dimension.ERROR:
-            return Fraction(0), LARGEST_ERROR / factor
-        case Dimension.TIME:
-            return Fraction(0), widest
-        case Dimension.VOLTS:
-            return Fraction("-9.9982"), Fraction("9.9982")
-        case _:
-            return Fraction(-LARGEST), Fraction(LARGEST)
 
 
 def _channel(text: str, names: tuple[str, ...]) -> int | None:

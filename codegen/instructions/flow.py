@@ -8,10 +8,11 @@ import dataclasses as dc
 from enum import StrEnum
 from fractions import Fraction
 
+from codegen.conversion import CALIBRATED_US
 from codegen.fields import Choice, Condition, Dimension, Flag, InputNumber, LabelName, Number, Quantity, value
 from codegen.instructions.instruction import Group, Instruction
 from codegen.numbers import decimal, nearest, parse_number
-from codegen.setup import CALIBRATED_US, Setup
+from codegen.setup import Setup
 
 SAMPLES_PER_MS = Fraction(1024, 1000)  # samples in a true millisecond at the calibrated loop rate
 

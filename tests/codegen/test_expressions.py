@@ -21,11 +21,11 @@ from codegen.expressions import (
     Variable,
     children,
     depth,
-    in_counts,
     parse_expression,
     walk,
     write,
 )
+from codegen.units import in_counts
 
 POSITIONS = frozenset({"TP", "RP"})
 

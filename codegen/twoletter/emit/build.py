@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from codegen.expressions import Bad, Binary, Expression, Operand, in_counts, parse_expression, write
+from codegen.expressions import Bad, Binary, Expression, Operand, parse_expression, write
 from codegen.fields import AXES, Dimension, PerAxisText, value_of
 from codegen.numbers import parse_number, plain
 from codegen.setup import Setup
 from codegen.twoletter.calls import Value
 from codegen.twoletter.commands import COMMANDS
+from codegen.units import in_counts
 
 FIRST_NUMBER = 0xE000  # stands for a number that the last pass gives out (a private character of Unicode)
 _DIMENSIONS = {"counts": Dimension.POSITION, "counts/s": Dimension.SPEED, "counts/s2": Dimension.ACCELERATION}

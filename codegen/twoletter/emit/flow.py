@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from codegen.expressions import Bad, Negative, in_counts, parse_expression, write
+from codegen.expressions import Bad, Negative, parse_expression, write
 from codegen.fields import Dimension, value_of
 from codegen.instructions.flow import (
     End,
@@ -25,6 +25,7 @@ from codegen.instructions.waits import Clock, Finished, Moving, Place, WaitForCo
 from codegen.twoletter.calls import BODY, Assign, Mark, Statement, Value, by_axis, for_axes, numbers, simple, target
 from codegen.twoletter.emit.build import Build, is_false, raw
 from codegen.twoletter.emit.motion import wait_for
+from codegen.units import in_counts
 
 PASSING = {Place.PASSED: "AP", Place.FORWARD: "MF", Place.REVERSE: "MR"}
 
