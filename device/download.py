@@ -133,11 +133,13 @@ class Download:
                 yield from self._send(paced=False)
                 yield from self._verify()
             except _Garbled:
+                yield Send(LEAVE + b"\r")
+                yield from fence(self._nonces)
                 yield from self._send(paced=True)
                 yield from self._verify()
         except _Garbled as reason:
             raise DownloadFailed(
-                f"Downloaded twice, but {reason}; the program in the controller is not right. {HELP}"
+                f"Not downloaded, tried twice: {reason}; the controller does not hold the program. {HELP}"
             ) from reason
         except (LinkLost, Stopped) as reason:
             raise DownloadFailed(self._broken(reason)) from reason
@@ -188,8 +190,9 @@ class Download:
                 )
             answer = yield Send(line.encode("ascii") + b"\r", hold=True, watch_for=b"?:")
             self._reply_where_none_belongs(answer, number)
-            if paced:
-                answer = yield Wait(0.02 + 2 * self._line.byte_s * (len(line) + 1), hold=True, watch_for=b"?:")
+            if paced or number == 0:
+                pause = 0.02 + 2 * self._line.byte_s * (len(line) + 1)
+                answer = yield Wait(pause if number else pause + SETTLE_S, hold=True, watch_for=b"?:")
                 self._reply_where_none_belongs(answer, number)
         self._phase = "after the last line"
         self._job.show("finishing", total, total)
@@ -205,7 +208,9 @@ class Download:
 
     def _reply_where_none_belongs(self, answer: Answer, number: int) -> None:
         if answer.kind is Kind.REFUSED:
-            where = "DL was refused" if number < 0 else f"the controller left download mode at line {number}"
+            if number <= 0:
+                raise _Garbled("the controller did not go into download mode")
+            where = f"the controller left download mode at line {number}"
             raise DownloadFailed(f"Download ended {self._phase}: {where} (was it switched off?). {HELP}")
 
     def _leave(self) -> Steps[None]:
