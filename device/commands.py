@@ -11,7 +11,7 @@ from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.asking import Listing
-from device.door import only_reads
+from device.door import LISTS, only_reads
 from device.download import proved, upload_steps
 from device.identify import fence
 from device.stop import StopState
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
-TELLING = frozenset(["MG", "LS", "LL", "LV", "LA", "QU"]) | {row.name for row in COMMANDS.values() if row.tells}
+TELLING = LISTS | {"MG"} | {row.name for row in COMMANDS.values() if row.tells}
 ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 
 from device.api import StopState
@@ -194,3 +196,37 @@ def test_after_the_next_command_the_button_is_ready_again() -> None:
     assert bench.controller.stop_state is StopState.STOPPED
     bench.ask("SP 1000")
     assert bench.controller.stop_state is StopState.READY
+
+
+def coordinated(bench: Bench) -> None:
+    bench.ask("LM XY")
+    bench.ask("LI 400000,300000;LE")
+    bench.ask("VS 20000;BGS")
+
+
+def geared(bench: Bench) -> None:
+    """Y follows the auxiliary encoder of X, which somebody turns."""
+    bench.ask("GA DX")
+    bench.ask("GR ,2")
+    bench.simulation.stimulus("aux_speed_x", 5000)
+
+
+def contoured(bench: Bench) -> None:
+    bench.ask("CM X")
+    bench.ask("DT 8;CD 20000")
+
+
+@pytest.mark.parametrize("moving", [coordinated, geared, contoured])
+def test_other_kinds_of_motion_stand_still_too(moving: Callable[[Bench], None]) -> None:
+    bench = set_up("still")
+    moving(bench)
+    bench.run(0.1)
+    before = [axis["commanded"] for axis in bench.simulation.state()["axes"].values()]
+    bench.run(0.05)
+    assert [axis["commanded"] for axis in bench.simulation.state()["axes"].values()] != before
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 8.0)
+    before = [axis["commanded"] for axis in bench.simulation.state()["axes"].values()]
+    bench.run(0.5)
+    assert [axis["commanded"] for axis in bench.simulation.state()["axes"].values()] == before
+    assert bench.still()
