@@ -120,6 +120,8 @@ def regime_matrix(plant: Plant, regime: int, step: float) -> list[float]:
         lines[1] = [0.0] * 9
     if stuck:
         lines[0] = lines[3] = [0.0] * 9
+    if not is_coupled(plant):
+        lines[2] = lines[4] = [0.0] * 9
     return [lines[line][column] for line in range(layout.MATRIX_ROWS) for column in columns]
 
 

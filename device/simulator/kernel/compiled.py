@@ -162,6 +162,8 @@ def compiled_loop() -> Loop:
     try:
         signature = numba.int64(numba.float64[::1], numba.float64[::1], numba.int64)
         compiled: Loop = numba.njit(signature, nogil=True, cache=folder is not None)(loop.run)
+    except numba.core.errors.NumbaError as wrong:
+        raise CompilerMissing(f"numba can not compile the sample loop: {str(wrong).splitlines()[0]}") from wrong
     finally:
         settings.CACHE_DIR = before
     return compiled

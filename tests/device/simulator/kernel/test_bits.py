@@ -7,9 +7,12 @@ from pathlib import Path
 
 import numpy
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from device.simulator.kernel import compiled, layout
 from device.simulator.motion import Motion, Register
+from device.simulator.plant import Drive, Place, Plant
 from tests.device.simulator.kernel.scenario import mixed_run
 
 
@@ -26,6 +29,46 @@ def test_every_batch_size_gives_the_same_bits(batch: int) -> None:
     assert whole[1].tobytes() == cut[1].tobytes()
     differing = numpy.flatnonzero(whole[0].view(numpy.int64) != cut[0].view(numpy.int64))
     assert set(differing) <= {layout.TRIPS}
+
+
+machines = st.builds(
+    Plant,
+    drive=st.sampled_from(list(Drive)),
+    amplifier_gain=st.floats(0.2, 5.0),
+    inertia=st.floats(1e-5, 1e-3),
+    inductance=st.sampled_from([0.0, 0.004]),
+    load_inertia=st.sampled_from([0.0, 1e-4, 2e-3]),
+    coupling_stiffness=st.sampled_from([0.0, 5.0, 1e4]),
+    coupling_damping=st.sampled_from([0.0, 0.02]),
+    delay_samples=st.integers(0, 3),
+    gravity=st.floats(-1.0, 1.0),
+    torque_ripple=st.sampled_from([0.0, 0.1]),
+    encoder_noise=st.sampled_from([0.0, 2.0]),
+    viscous_friction=st.sampled_from([0.0, 0.003]),
+    coulomb_friction=st.sampled_from([0.0, 0.01]),
+    backlash=st.sampled_from([0.0, 5.0]),
+    main=st.sampled_from([Place.MOTOR, Place.LOAD]),
+    peak_current=st.sampled_from([2.0, 1e9]),
+)
+
+
+@given(machines, st.integers(0, 2**31))
+def test_any_machine_gives_the_same_bits_and_stays_finite(plant: Plant, seed: int) -> None:
+    states = []
+    for made in (True, False):
+        motion = Motion(1, [plant], seed=seed, compiled=made)
+        motion.set(0, Register.MOTOR_TYPE, 2 if plant.drive is Drive.STEPPER else 1)
+        motion.set(0, Register.KI, 1)
+        motion.begin_position(0, 4000)
+        motion.run(150)
+        motion.load(0, 0.5)
+        motion.push(0, 7)
+        motion.run(100)
+        motion.motor_off(0)
+        motion.run(50)
+        states.append(motion.snapshot())
+    assert states[0].tobytes() == states[1].tobytes()
+    assert numpy.isfinite(states[0]).all()
 
 
 def test_the_mixed_run_really_moves_everything() -> None:

@@ -204,6 +204,18 @@ def test_play_without_load_inertia_is_a_dead_band() -> None:
     assert (motion.position(0), motion.auxiliary(0)) == (50, 56)
 
 
+def test_play_behind_a_voltage_drive() -> None:
+    plant = Plant(drive=Drive.VOLTAGE, amplifier_gain=4.0, backlash=12, auxiliary=Place.LOAD, viscous_friction=0.002)
+    motion = Motion(1, [plant])
+    motion.set(0, Register.KD, 200)
+    motion.set(0, Register.KI, 1)
+    motion.begin_position(0, 100)
+    motion.run(4000)
+    assert abs(motion.position(0) - 100) <= 1
+    assert motion.auxiliary(0) <= motion.position(0) + 6
+    assert motion.auxiliary(0) >= 93
+
+
 def test_stiff_coupling_stays_stable() -> None:
     plant = two_masses(coupling_stiffness=5e4, coupling_damping=0.001, backlash=4.0, coulomb_friction=0.01)
     motion = Motion(1, [plant])
