@@ -168,7 +168,7 @@ class Session(QObject):
         return files.steps_to_text([find(self.document.program, name) for name in ids])
 
     def paste(self, text: str, before: str | None = None, place: Place | None = None) -> tuple[str, ...]:
-        """Adds steps from text, with ids of their own; raises FileUnreadable when it holds none."""
+        """Adds steps from text, with ids of their own; none when the text holds none."""
         program = self.document.program
         steps = renewed(program, files.steps_from_text(text))
         if not steps:

@@ -151,6 +151,23 @@ class TextArea(QPlainTextEdit):
             self.blockSignals(False)
 
 
+STEPS = {Qt.Key.Key_Up: -1, Qt.Key.Key_Left: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_Right: 1}
+
+
+class Segment(QPushButton):
+    """One of several buttons side by side; all four arrows walk along them."""
+
+    walked = Signal(int)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Arrows go to the neighbour."""
+        step = STEPS.get(Qt.Key(event.key()))
+        if step is None:
+            super().keyPressEvent(event)
+        else:
+            self.walked.emit(step)
+
+
 class Buttons(QWidget):
     """A few words side by side; one of them (or, with `several`, any of them) is on."""
 
@@ -160,9 +177,9 @@ class Buttons(QWidget):
         super().__init__(parent)
         self.group = QButtonGroup(self)
         self.group.setExclusive(not several)
-        self.buttons: dict[Any, QPushButton] = {}
+        self.buttons: dict[Any, Segment] = {}
         for key, words in choices:
-            button = QPushButton(words)
+            button = Segment(words)
             button.setCheckable(True)
             button.setMinimumHeight(look().control)
             button.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
@@ -171,9 +188,10 @@ class Buttons(QWidget):
             self.group.addButton(button)
             self.buttons[key] = button
             button.toggled.connect(self._toggled)
+            button.walked.connect(lambda by, key=key: self._walk(key, by))
         _row(self, *self.buttons.values(), space=4).addStretch(1)
 
-    def focus_target(self) -> QPushButton:
+    def focus_target(self) -> Segment:
         """The button the cursor goes to: the first that is on, else the first."""
         shown = list(self.buttons.values())
         return next((button for button in shown if button.isChecked()), shown[0])
@@ -191,6 +209,14 @@ class Buttons(QWidget):
             button.setChecked(key in keys)
             button.blockSignals(False)
         self.group.setExclusive(exclusive)
+
+    def _walk(self, key: Any, by: int) -> None:
+        """The neighbour takes the focus; where only one can be on, it goes on."""
+        keys = list(self.buttons)
+        neighbour = self.buttons[keys[(keys.index(key) + by) % len(keys)]]
+        neighbour.setFocus(Qt.FocusReason.TabFocusReason)
+        if self.group.exclusive():
+            neighbour.setChecked(True)
 
     def _toggled(self, on: bool) -> None:
         if on or not self.group.exclusive():

@@ -146,12 +146,16 @@ class ProgramModel(QAbstractItemModel):
     def show(self, new: Document) -> None:
         """Goes from what the rows show to `new`; rows of steps that stay keep selection and scrolling."""
         old, self.shown = self.shown, new
-        for change in changes(old.program, new.program):
-            self._apply(change)
+        edits = changes(old.program, new.program)
+        for edit in edits:
+            self._apply(edit)
         for section in self.root.children:
             _adopt(section, new.program.section(Section(section.section)))
         if old.working_setup != new.working_setup:
             self.refresh()
+        for edit in edits:
+            if isinstance(edit, Changed):
+                self._say_changed(self.nodes[edit.step.id])
 
     def refresh(self) -> None:
         """Every row's words may have changed."""
@@ -168,10 +172,10 @@ class ProgramModel(QAbstractItemModel):
                 self._remove(self.nodes[name])
             case Moved(name, _, place):
                 self._move(self.nodes[name], self.nodes[place.parent], place.index)
-            case Changed(step):
-                node = self.nodes[step.id]
-                node.step = step
-                self.dataChanged.emit(self.createIndex(node.row, 0, node), self.createIndex(node.row, 1, node))
+
+    def _say_changed(self, node: Node) -> None:
+        """The words of one row are new."""
+        self.dataChanged.emit(self.createIndex(node.row, 0, node), self.createIndex(node.row, 1, node))
 
     def _insert(self, parent: Node, row: int, step: Step) -> None:
         self.beginInsertRows(self._of(parent), row, row)

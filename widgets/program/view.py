@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidg
 
 from codegen import read
 from codegen.document import Document
-from codegen.files import FileUnreadable
 from codegen.generate import Listing
 from codegen.instructions import ALL, Comment, Instruction, TwoLetterCode
 from codegen.program import Place, Section, Step, find, place_of
@@ -65,7 +64,7 @@ class ProgramView(QWidget):
         self.dialogs = Dialogs(self, session)
         self.mode = "program"
         self.running: Listing | None = None
-        self._stepping = False
+        self._stepping = self._showing = False
         self.commands = make_actions(self)
         self._lay_out()
         self._connect()
@@ -79,7 +78,9 @@ class ProgramView(QWidget):
         """Brings everything from `old` to `new`; what did not change is not touched."""
         listing = self.session.listing
         self.words.show(new, listing)
+        self._showing = True  # rows come and go: the selection is told once, at the end
         self.model.show(new)
+        self._showing = False
         if old is None:
             self.tree.expandAll()
         self.tree.viewport().update()
@@ -294,10 +295,10 @@ class ProgramView(QWidget):
             self._move(ids, (edge.parent, index))
 
     def _paste(self, text: str, before: str | None = None, place: Place | None = None) -> None:
-        try:
-            self.tree.choose(self.session.paste(text, before, place))
-        except FileUnreadable as failure:
-            self.said.emit(str(failure))
+        ids = self.session.paste(text, before, place)
+        self.tree.choose(ids)
+        if not ids:
+            self.said.emit("There are no steps to paste")
 
     def _move(self, ids: Sequence[str], where: tuple[str, int]) -> None:
         place = Place(*where)
@@ -329,6 +330,8 @@ class ProgramView(QWidget):
         self.inspector.show_step(one, offers_of(self.session.document))
 
     def _selection_changed(self) -> None:
+        if self._showing:
+            return
         self._show_selection(scroll=not self._stepping)
         self.refresh_commands()
         self.selection_changed.emit()

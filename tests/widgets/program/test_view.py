@@ -79,7 +79,8 @@ def press_until(qtbot: QtBot, dialog: InstructionDialog, name: str, words: str) 
 
 
 def add(qtbot: QtBot, dialog: InstructionDialog) -> None:
-    """Ctrl+Enter adds."""
+    """Ctrl+Enter adds. The dialog outlives its closing, because the test's key comes up after it."""
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
     qtbot.keyClick(dialog, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
 
 
@@ -93,7 +94,7 @@ def build_by_keyboard(qtbot: QtBot, window: Window) -> None:
     type_into(qtbot, dialog, "name", "A")
     add(qtbot, dialog)
     dialog = pick(qtbot, window, "wait for")
-    press_until(qtbot, dialog, "kind", "An input")
+    press_until(qtbot, dialog, "kind", "Input")
     add(qtbot, dialog)
     dialog = pick(qtbot, window, "single")
     type_into(qtbot, dialog, "distance", "10")
@@ -104,7 +105,7 @@ def build_by_keyboard(qtbot: QtBot, window: Window) -> None:
     type_into(qtbot, dialog, "time", "20")
     add(qtbot, dialog)
     dialog = pick(qtbot, window, "output")
-    press_until(qtbot, dialog, "state", "Off")
+    press_until(qtbot, dialog, "level", "Off")
     add(qtbot, dialog)
     dialog = pick(qtbot, window, "wait")
     type_into(qtbot, dialog, "time", "80")
@@ -139,6 +140,12 @@ def click(qtbot: QtBot, widget: QWidget) -> None:
     qtbot.mouseClick(widget, Qt.MouseButton.LeftButton)
 
 
+def close_with(qtbot: QtBot, dialog: InstructionDialog) -> None:
+    """Clicks Add; the dialog outlives its closing, because the button comes up after it."""
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
+    click(qtbot, dialog.buttons["Add"])
+
+
 def take(qtbot: QtBot, window: Window, kind: type[Instruction]) -> InstructionDialog:
     """Double-clicks an instruction in the palette."""
     tree = window.view.instructions.tree
@@ -156,9 +163,9 @@ def test_a_program_is_built_by_mouse(qtbot: QtBot, window: Window) -> None:
     click(qtbot, cells["axis", ""].editor.buttons["Y"])
     click(qtbot, cells["distance", ""].editor)
     qtbot.keyClicks(cells["distance", ""].editor, "2")
-    click(qtbot, dialog.buttons["Add"])
+    close_with(qtbot, dialog)
     dialog = take(qtbot, window, Output)
-    click(qtbot, dialog.buttons["Add"])
+    close_with(qtbot, dialog)
     assert [step.instruction for step in window.main()] == [SingleAxisMove(axis="Y", distance="2"), Output()]
     assert "PR ,2000" in window.code()
 
