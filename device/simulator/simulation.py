@@ -52,10 +52,11 @@ class Simulation:
         profile: Profile | None = None,
     ) -> None:
         machines = [(plants or {}).get(letter, Plant()) for letter in AXES[: len(model.axes)]]
+        jumpers = [machine.drive == "stepper" for machine in machines]
         self.model = model
         self.motion = Motion(len(model.axes), machines, seed=seed, compiled=compiled)
         self.uarts = (Uart(baud=baud, handshake=handshake), Uart(handshake=False))
-        self.unit = Unit(model, self.motion, self.uarts, eeprom or Eeprom(), profile)
+        self.unit = Unit(model, self.motion, self.uarts, eeprom or Eeprom(), profile, jumpers)
         self.interpreter = Interpreter(self.unit)
 
     # -------------------------------------------------------------------- time
@@ -72,10 +73,10 @@ class Simulation:
     def run_until_idle(self, limit_ticks: int) -> str:
         """Until no thread runs and nothing moves: "end"; at the limit "time"; "error" when a program error ends it."""
         limit = self.ticks + limit_ticks
-        known = len(self.errors)
+        known = self.unit.records.unhandled
         while self.ticks < limit:
             self.interpreter.advance(limit, until_idle=True)
-            if any(not error["handled"] for error in self.errors[known:]):
+            if self.unit.records.unhandled > known:
                 return "error"
             if not self.unit.running():
                 if not self.unit.moving() and self.unit.state.command_at < 0:

@@ -26,6 +26,7 @@ class Records:
 
     messages: list[tuple[float, int, str]] = field(default_factory=list)
     errors: list[ProgramError] = field(default_factory=list)
+    unhandled: int = 0  # errors that ended a thread
     on_trace: Callable[[int, int, int], None] | None = None
     _open: dict[int, tuple[float, str]] = field(default_factory=dict)
 

@@ -26,12 +26,12 @@ class Interpreter:
     # -------------------------------------------------------------------- time
 
     def advance(self, end: int, *, until_idle: bool = False) -> None:
-        """Carries out everything due up to and including tick `end`."""
+        """Carries out everything due up to and including tick `end`; or until no thread runs or an error ends one."""
         unit = self.unit
-        clock = unit.clock
+        clock, known = unit.clock, unit.records.unhandled
         while True:
             self._settle()
-            if until_idle and not unit.running():
+            if until_idle and (not unit.running() or unit.records.unhandled > known):
                 return
             due = self._next_event()
             command_at = unit.state.command_at

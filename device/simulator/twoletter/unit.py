@@ -34,13 +34,20 @@ class Unit:
     """Everything a command may look at or change. Motion is reached through `motion`, which first catches up."""
 
     def __init__(
-        self, model: Model, motion: Motion, uarts: Sequence[Uart], eeprom: Eeprom, profile: Profile | None = None
+        self,
+        model: Model,
+        motion: Motion,
+        uarts: Sequence[Uart],
+        eeprom: Eeprom,
+        profile: Profile | None = None,
+        jumpers: Sequence[bool] = (),
     ) -> None:
         self.model = model
         self.profile = profile or Profile()
         self.clock = Clock(motion)
         self.uarts = uarts
         self.eeprom = eeprom
+        self.stepper_jumpers = tuple(jumpers)
         self.records = Records()
         self.notices: list[str] = []
         self.state: State = fresh(model)
@@ -277,6 +284,7 @@ class Unit:
         if handled:
             self.call(main, "CMDERR", min(pc + 1, len(self.code.ops) - 1) if thread is main else main.pc)
         else:
+            self.records.unhandled += 1
             self.unsolicited(1, f"?{line:03d} {source}\r\n")
 
     def _in_routine(self, thread: Thread, label: str) -> bool:

@@ -292,3 +292,14 @@ def test_error_codes_and_their_texts(command: str, code: int) -> None:
     bench = Bench("ssc4")
     assert bench.type(command + "\r").endswith("?")
     assert bench.ask("TC1") == f"{code} {ERROR_TEXTS[code]}"
+
+
+def test_a_stepper_needs_its_jumper() -> None:
+    bench = Bench("ssc2", plants={"Y": Plant(drive="stepper")})  # SSC manual l.772
+    assert bench.refused("MO;MT 2") == 96
+    assert bench.ask("MO;MT ,-2.5") == ":"
+    assert bench.ask("MT ?,?") == " 1.0,-2.5"
+    assert bench.refused("SP ,2000002") == 6  # 2 000 000 steps/s
+    bench.ask("SHY;PR ,500;BGY")
+    bench.wait(500)
+    assert bench.ask("TDY") == " 0000000500"

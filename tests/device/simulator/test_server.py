@@ -35,7 +35,7 @@ def test_commands_over_a_socket() -> None:
         client.sendall(b"PR 500;SP 20000;BGX;AMX\r")
         assert until(client, b"::::") == b"::::"
         client.sendall(b'MG "AT",_RPX{F4.0}\rTC1\r')
-        assert until(client, b"0\r\n:") == b"AT 0500\r\n:0\r\n:"
+        assert until(client, b":0\r\n:") == b"AT 0500\r\n:0\r\n:"
         simulator.stimulus("in1", 0)
         client.sendall(b"AI-1;TI\r")
         assert until(client, b"\r\n:") == b":254\r\n:"
@@ -64,7 +64,7 @@ def test_real_time_is_kept() -> None:
         began = time.monotonic()
         client.sendall(b"WT 512\r")
         until(client, b":")
-        assert time.monotonic() - began == pytest.approx(0.5, abs=0.05)
+        assert time.monotonic() - began == pytest.approx(0.5, abs=0.15)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
@@ -81,7 +81,8 @@ def test_a_paced_pseudo_terminal() -> None:
             data += os.read(terminal, 100)
         os.close(terminal)
         assert data == b" 0000000000\r\n:"
-        assert time.monotonic() - began == pytest.approx(18 * 10 / 1200, abs=0.04)  # 4 characters there, 14 back
+        seconds = 18 * 10 / 1200  # 4 characters there, 14 back
+        assert seconds - 0.02 < time.monotonic() - began < seconds + 0.25
 
 
 def test_an_ended_process_is_said() -> None:

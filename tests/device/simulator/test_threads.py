@@ -310,3 +310,15 @@ def test_operator_data_of_port_one() -> None:
     assert [variable(bench, name) for name in "SNT"] == [3, 12.5, 0]
     assert bench.type("TP\r") == ""  # still data
     assert bench.type("\x1bTP\r") == " 0000000000\r\n:"  # ESC leaves the mode
+
+
+@pytest.mark.parametrize("slice_ms", [None, 1, 37])
+def test_a_run_ends_at_an_error_that_nothing_handles(slice_ms: int | None) -> None:
+    bench = Bench()
+    bench.load("#A\nXQ #T,1\n#L;JP #L\n#T\nWT 10\nSP 99999999\nEN")
+    bench.simulation.execute("#A")
+    end = "time"
+    while end == "time" and bench.simulation.ticks < 10_000 * MS:
+        end = bench.simulation.run_until_idle(10_000 * MS if slice_ms is None else slice_ms * MS)
+    assert end == "error"
+    assert bench.simulation.ticks / MS == pytest.approx(11, abs=2)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
+NO_JUMPER: Final = 96
 STEPPER: Final = 2 * ONE  # |MT| from here on: stepper
 
 
@@ -27,6 +28,7 @@ class Store:
     per_axis: bool = True
     register: Register | None = None
     apply: Callable[[Unit, int, int], None] | None = None  # (unit, axis, scaled value) after storing
+    check: Callable[[Unit, int, int], None] | None = None  # refuses a value that the machine does not allow
     saved: bool = True  # among what BN burns
 
 
@@ -66,6 +68,12 @@ def _path(setter: str) -> Store:
     return Store(per_axis=False, apply=follow)
 
 
+def _needs_jumper(unit: Unit, axis: int, value: int) -> None:
+    """Stepper types need the SM jumper (SSC manual l.772)."""
+    if abs(value) >= STEPPER and not unit.stepper_jumpers[axis]:
+        raise CommandError(NO_JUMPER)
+
+
 STORES: Final[dict[str, Store]] = {
     "PA": _mode("PA"),
     "PR": _mode("PR"),
@@ -87,7 +95,7 @@ STORES: Final[dict[str, Store]] = {
     "OE": _follow(Register.OFF_ON_ERROR),
     "FL": _follow(Register.FORWARD_LIMIT),
     "BL": _follow(Register.REVERSE_LIMIT),
-    "MT": _follow(Register.MOTOR_TYPE),
+    "MT": Store(register=Register.MOTOR_TYPE, check=_needs_jumper),
     "CE": _follow(Register.ENCODER),
     "DV": _follow(Register.DUAL_LOOP),
     "AF": _follow(Register.ANALOG_FEEDBACK),
@@ -163,6 +171,8 @@ def store(unit: Unit, call: Call) -> None:
         stepper = entry.per_axis and row.takes is Takes.AXIS_NUMBERS and is_stepper(unit, axis)
         if not row.accepts(value, unit.model, stepper):
             raise CommandError(6)
+        if entry.check is not None:
+            entry.check(unit, axis, value)
         accepted.append((axis, row.stored(value)))
     for axis, value in accepted:
         put(unit, name, axis, value)
