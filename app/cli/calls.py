@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 
 from app.cli.parser import calls_parser
-from app.cli.version import version
 
 # Imported only when called: `twoletter check` must not wait for the simulator.
 DOES = {
@@ -24,7 +23,7 @@ DOES = {
 
 def call(arguments: list[str]) -> int:
     """Reads the arguments and does the call; its exit code."""
-    options = calls_parser(version()).parse_args(arguments)
+    options = calls_parser().parse_args(arguments)
     function = getattr(importlib.import_module(DOES[options.call]), options.call.replace("import", "import_source"))
     code: int = function(options)
     return code

@@ -23,6 +23,16 @@ CALLS = (
 )
 
 
+class Version(argparse.Action):
+    """Prints the version and ends; it is looked up only then."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from app.cli.version import version
+
+        print(f"twoletter {version()}")
+        parser.exit()
+
+
 class Parser(argparse.ArgumentParser):
     """A parser whose complaints are one line."""
 
@@ -105,10 +115,10 @@ def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     calls.add_parser("ports", help="serial ports that are there")
 
 
-def calls_parser(version: str) -> Parser:
+def calls_parser() -> Parser:
     """The parser of `twoletter CALL …`."""
     parser = Parser(prog="twoletter", description="Program and run motion controllers that speak two-letter code.")
-    parser.add_argument("--version", action="version", version=f"twoletter {version}")
+    parser.add_argument("--version", action=Version, nargs=0, help="which version this is")
     calls = parser.add_subparsers(dest="call", metavar="CALL", required=True, parser_class=Parser)
     file_calls(calls)
     simulator_calls(calls)
@@ -116,13 +126,13 @@ def calls_parser(version: str) -> Parser:
     return parser
 
 
-def studio_parser(version: str) -> Parser:
+def studio_parser() -> Parser:
     """The parser of `twoletter [FILE] …`, which opens the studio."""
     parser = Parser(
         prog="twoletter",
         description="Opens the studio. Other calls: " + ", ".join(CALLS) + " (twoletter CALL --help).",
     )
-    parser.add_argument("--version", action="version", version=f"twoletter {version}")
+    parser.add_argument("--version", action=Version, nargs=0, help="which version this is")
     parser.add_argument("file", metavar="FILE", nargs="?", help="a program (.tlp)")
     way = parser.add_mutually_exclusive_group()
     way.add_argument("--simulator", metavar="MODEL", nargs="?", const="", help="connect to the bundled simulator")

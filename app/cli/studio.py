@@ -9,7 +9,6 @@ from pathlib import Path
 
 from app.cli.failure import UNUSABLE, Failure
 from app.cli.parser import studio_parser
-from app.cli.version import version
 from codegen.models import MODELS
 
 NO_DISPLAY = "no display to open a window on; run the headless demo with: twoletter demo"
@@ -54,7 +53,7 @@ def way_to_connect(simulator: str | None, port: str | None, offline: bool) -> st
 
 def open_studio(arguments: list[str]) -> int:
     """`twoletter [FILE] …`"""
-    options = studio_parser(version()).parse_args(arguments)
+    options = studio_parser().parse_args(arguments)
     connect = way_to_connect(options.simulator, options.port, options.offline)
     path = Path(options.file) if options.file else None
     if path and not path.exists():
