@@ -88,6 +88,7 @@ class Studio(QObject):
         self.connection.close()
         self.crash.uninstall()
         self.stop_key.remove()
+        self.theme.release()
 
     def _handlers(self) -> dict[str, Callable[[], None]]:
         desk, run, start = self.desk, self.run, self.start

@@ -6,12 +6,12 @@ import tomllib
 from enum import StrEnum
 from typing import Any
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
 import resources
-from widgets.parts.look import PROPERTY, Look, look
+from widgets.parts.look import PROPERTY, Look
 
 
 class Choice(StrEnum):
@@ -26,12 +26,13 @@ class Theme(QObject):
     """Keeps the application in the chosen colours and follows the system when told to."""
 
     def __init__(self, application: QApplication, choice: Choice = Choice.SYSTEM) -> None:
-        super().__init__(application)
+        super().__init__()
         self._application = application
         self._table = read_table()
         self.choice = choice
-        application.setStyle(QStyleFactory.create("Fusion"))
-        application.styleHints().colorSchemeChanged.connect(lambda _: self._follow())
+        if not isinstance(application.property(PROPERTY), Look):  # once: each further style would wrap the one before
+            application.setStyle(QStyleFactory.create("Fusion"))
+        application.styleHints().colorSchemeChanged.connect(self._follow)
         self.choose(choice)
 
     def choose(self, choice: Choice) -> None:
@@ -44,7 +45,11 @@ class Theme(QObject):
         hints.setColorScheme(wanted)
         self._follow()
 
-    def _follow(self) -> None:
+    def release(self) -> None:
+        """Follows the system no longer."""
+        self._application.styleHints().colorSchemeChanged.disconnect(self._follow)
+
+    def _follow(self, _scheme: Qt.ColorScheme | None = None) -> None:
         if self.choice is Choice.SYSTEM:
             dark = self._application.styleHints().colorScheme() is Qt.ColorScheme.Dark
         else:
@@ -103,22 +108,3 @@ def style_sheet(table: dict[str, Any], wanted: Look) -> str:
     for key, value in words.items():
         sheet = sheet.replace("{" + key + "}", str(value))
     return sheet
-
-
-class NoWheel(QObject):
-    """Spin boxes and choices without focus ignore the wheel, so that scrolling a form changes nothing."""
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        from PySide6.QtWidgets import QAbstractSpinBox, QComboBox
-
-        if (
-            event.type() == QEvent.Type.Wheel
-            and isinstance(watched, QAbstractSpinBox | QComboBox)
-            and not watched.hasFocus()
-        ):
-            event.ignore()
-            return True
-        return False
-
-
-__all__ = ["Choice", "NoWheel", "Theme", "look", "make_look", "make_palette", "read_table", "style_sheet"]

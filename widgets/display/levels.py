@@ -26,7 +26,7 @@ class Levels(QWidget):
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setHorizontalSpacing(8)
-        self._grid.setVerticalSpacing(2)
+        self._grid.setVerticalSpacing(0)
 
     def show_names(self, names: Sequence[str]) -> None:
         """One lamp for each name (empty names included)."""

@@ -27,6 +27,7 @@ class ThreadList(QWidget):
             label = QLabel()
             label.setFont(look().body_font())
             label.setMinimumHeight(24)
+            label.setWordWrap(True)
             self._rows.append(label)
             self._column.addWidget(label)
         for number, label in enumerate(self._rows):

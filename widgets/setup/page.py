@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from codegen.fields import Context, fields_of
 from codegen.models import MODELS
 from codegen.setup import Axis, Setup, Unit, setup_problems
 from widgets.parts.look import look
@@ -92,6 +93,18 @@ def scale_words(axis: Axis) -> str:
     if not axis.is_set_up:
         return f"! not set up: 1 count is taken for 1 {axis.symbol}"
     return f"1 {axis.symbol} = {axis.counts_per_unit} counts"
+
+
+def _scale_problems(setup: Setup) -> list[str]:
+    """What is wrong with the scales as they were typed."""
+    field = fields_of(Axis)["counts_per_unit"]
+    found = []
+    for letter in setup.letters:
+        axis = setup.axis(letter)
+        problem = field.problem(axis.counts_per_unit, Context(setup, letter)) if axis.counts_per_unit else None
+        if problem and axis.unit is not Unit.COUNT:
+            found.append(f"{letter}: {problem}")
+    return found
 
 
 class NameGrid(QWidget):
@@ -193,7 +206,8 @@ class SetupPage(QDialog):
         )
         for letter, row in self.rows.items():
             row.setVisible(letter in wanted.letters)
-        errors = [each.message for each in setup_problems(wanted) if each.severity == "error"]
+        errors = _scale_problems(wanted)
+        errors += [each.message for each in setup_problems(wanted) if each.severity == "error"]
         self.problem.setText(errors[0] if errors else "")
         self.problem.setVisible(bool(errors))
         self.done_button.setEnabled(not errors)

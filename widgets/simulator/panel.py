@@ -46,6 +46,8 @@ class SimulatorPanel(Panel):
         self.switches: dict[str, QCheckBox] = {}
         self.volts: dict[int, QDoubleSpinBox] = {}
         self.pushes: dict[str, QDoubleSpinBox] = {}
+        self.buttons: dict[str, QPushButton] = {}
+        self.reset = QPushButton("Reset")
         self.empty = QLabel(EMPTY)
         self.empty.setWordWrap(True)
         self.empty.setProperty("role", "quiet")
@@ -163,7 +165,7 @@ class SimulatorPanel(Panel):
 
     def _push_grid(self, letters: str) -> QGridLayout:
         grid = QGridLayout()
-        self.pushes = {}
+        self.pushes, self.buttons = {}, {}
         for row, letter in enumerate(letters):
             box, button = QDoubleSpinBox(), QPushButton(f"Push {letter}")
             box.setRange(-1_000_000, 1_000_000)
@@ -177,7 +179,7 @@ class SimulatorPanel(Panel):
             grid.addWidget(QLabel(letter), row, 0)
             grid.addWidget(box, row, 1)
             grid.addWidget(button, row, 2)
-            self.pushes[letter] = box
+            self.pushes[letter], self.buttons[letter] = box, button
         grid.setColumnStretch(1, 1)
         return grid
 
@@ -186,7 +188,7 @@ class SimulatorPanel(Panel):
         abort = QCheckBox("Abort input pressed")
         abort.toggled.connect(lambda pressed: self.stimulus.emit("abort", 0.0 if pressed else 1.0))
         self.switches["abort"] = abort
-        reset = QPushButton("Reset")
+        reset = self.reset = QPushButton("Reset")
         reset.setToolTip("As if the power had been off for a moment: what is not burned is gone.")
         reset.clicked.connect(lambda: self.stimulus.emit("reset", 0.0))
         row.addWidget(abort)
