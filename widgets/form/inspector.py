@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from codegen.instructions import Instruction
@@ -15,6 +16,7 @@ class Inspector(QWidget):
     """Shows one step; empty, it says what to do."""
 
     edited = Signal(str, object, str)  # step id, instruction, key under which changes join for undo
+    became_visible = Signal()
     title = "Inspector"
 
     def __init__(self, offers: Offers, parent: QWidget | None = None) -> None:
@@ -38,19 +40,29 @@ class Inspector(QWidget):
         column.addWidget(self.stack, 1)
         self.heading.hide()
 
-    def show_step(self, step: Step | None, offers: Offers) -> None:
-        """Shows `step`, or the hint when nothing (or more than one) is selected."""
+    def show_nothing(self) -> None:
+        """The hint, while no step (or more than one) is selected."""
+        self.step = None
+        self.heading.hide()
+        self.stack.setCurrentWidget(self.empty)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """While hidden it follows nothing; shown again it asks for the selected step."""
+        super().showEvent(event)
+        self.became_visible.emit()
+
+    def show_step(self, step: Step, offers: Offers) -> None:
+        """Shows `step`."""
         if offers.setup != self.offers.setup:
             self._rebuild(offers)
         self.offers = offers
         self.form.offers = self.form.fields.offers = offers
         self.step = step
-        self.heading.setVisible(step is not None)
-        self.stack.setCurrentWidget(self.empty if step is None else self.form)
-        if step is not None:
-            self.heading.setText(step.instruction.title)
-            if step.instruction != self.form.fields.item or type(step.instruction) is not type(self.form.fields.item):
-                self.form.show_instruction(step.instruction)
+        self.heading.show()
+        self.stack.setCurrentWidget(self.form)
+        self.heading.setText(step.instruction.title)
+        if step.instruction != self.form.fields.item or type(step.instruction) is not type(self.form.fields.item):
+            self.form.show_instruction(step.instruction)
 
     def _edited(self, instruction: Instruction) -> None:
         if self.step is not None:

@@ -7,9 +7,10 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractItemModel, QMimeData, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 
-from codegen.changes import Change, Changed, Inserted, Moved, Removed, changes
+from codegen.changes import Change, Changed, Inserted, Moved, Removed
 from codegen.document import Document
 from codegen.program import Program, Section, Step
+from widgets.program.difference import edits
 from widgets.program.node import HINTS, TITLES, Node, empty_tree
 from widgets.program.words import Words
 
@@ -20,6 +21,10 @@ NEW_MIME = "application/x-twoletter-instruction"
 NodeRole = Qt.ItemDataRole.UserRole + 1
 ENGLISH, CODE = 0, 1
 HEADINGS = ("Program", "Code")
+NOTHING = Qt.ItemFlag.NoItemFlags
+SECTION_FLAGS = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsDropEnabled
+HOLDER_FLAGS = SECTION_FLAGS | Qt.ItemFlag.ItemIsDragEnabled
+STEP_FLAGS = HOLDER_FLAGS & ~Qt.ItemFlag.ItemIsDropEnabled | Qt.ItemFlag.ItemNeverHasChildren
 
 
 class ProgramModel(QAbstractItemModel):
@@ -40,7 +45,8 @@ class ProgramModel(QAbstractItemModel):
 
     def index(self, row: int, column: int, parent: Index = QModelIndex()) -> QModelIndex:  # noqa: B008
         """The index of a row below `parent`."""
-        children = self.node(parent).children
+        node = parent.internalPointer() if parent.isValid() else self.root
+        children = node.children
         return self.createIndex(row, column, children[row]) if 0 <= row < len(children) else QModelIndex()
 
     def parent(self, index: Index) -> QModelIndex:  # type: ignore[override]
@@ -79,14 +85,9 @@ class ProgramModel(QAbstractItemModel):
     def flags(self, index: Index) -> Qt.ItemFlag:
         """Steps can be chosen and dragged; sections and everything that holds steps take them."""
         if not index.isValid():
-            return Qt.ItemFlag.NoItemFlags
-        node = self.node(index)
-        flags = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
-        if node.step is not None:
-            flags |= Qt.ItemFlag.ItemIsDragEnabled
-        if node.step is None or self.words.holds_steps(node.step):
-            flags |= Qt.ItemFlag.ItemIsDropEnabled
-        return flags
+            return NOTHING
+        step = index.internalPointer().step
+        return SECTION_FLAGS if step is None else HOLDER_FLAGS if step.instruction.container else STEP_FLAGS
 
     # ---- look-up
 
@@ -146,14 +147,14 @@ class ProgramModel(QAbstractItemModel):
     def show(self, new: Document) -> None:
         """Goes from what the rows show to `new`; rows of steps that stay keep selection and scrolling."""
         old, self.shown = self.shown, new
-        edits = changes(old.program, new.program)
-        for edit in edits:
+        found = edits(old.program, new.program)
+        for edit in found:
             self._apply(edit)
         for section in self.root.children:
             _adopt(section, new.program.section(Section(section.section)))
         if old.working_setup != new.working_setup:
             self.refresh()
-        for edit in edits:
+        for edit in found:
             if isinstance(edit, Changed):
                 self._say_changed(self.nodes[edit.step.id])
 

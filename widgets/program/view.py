@@ -87,12 +87,12 @@ class ProgramView(QWidget):
         self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
         self.header.show_program(new.program)
         self.problems.show_problems(new, listing)
-        self.dialogs.show_offers(offers_of(new))
+        if self.dialogs.open:
+            self.dialogs.show_offers(offers_of(new))
         if old is None or old.setup != new.setup:
             self.instructions.show_setup(new.working_setup)
         self._show_selection(scroll=False)
         self._show_insertion()
-        self.refresh_commands()
 
     def show_executing(self, threads: Mapping[int, int | None]) -> None:
         """Marks the line each thread stands on (line of what was downloaded; None: the thread does not run)."""
@@ -154,11 +154,14 @@ class ProgramView(QWidget):
 
     def can(self, name: str) -> str | None:
         """None when the command is possible now, else the reason in words."""
+        return self._reason(name, self.tree.chosen())
+
+    def _reason(self, name: str, chosen: Sequence[str]) -> str | None:
         if name == "undo":
             return None if self.session.can_undo else "Nothing to undo"
         if name == "redo":
             return None if self.session.can_redo else "Nothing to redo"
-        if name in NEEDS_STEP and not self.tree.chosen():
+        if name in NEEDS_STEP and not chosen:
             return "Select a step first"
         if name == "insert" and self.tree.current() is None:
             return "Select the step to insert before"
@@ -170,14 +173,15 @@ class ProgramView(QWidget):
 
     def refresh_commands(self) -> None:
         """Greys what is not possible now and says why."""
+        chosen = self.tree.chosen()
         for row in COMMANDS:
-            action, reason = self.commands[row.name], self.can(row.name)
-            action.setEnabled(reason is None)
-            action.setStatusTip(reason or row.help)
-            action.setToolTip(f"{reason or row.help} ({row.keys})")
+            action, reason = self.commands[row.name], self._reason(row.name, chosen)
+            if action.isEnabled() != (reason is None) or action.statusTip() != (reason or row.help):
+                action.setEnabled(reason is None)
+                action.setStatusTip(reason or row.help)
+                action.setToolTip(f"{reason or row.help} ({row.keys})")
         for name, label in (("undo", self.session.undo_text), ("redo", self.session.redo_text)):
             self.commands[name].setText(f"{name.capitalize()}: {label}" if label else name.capitalize())
-        chosen = self.tree.chosen()
         off = bool(chosen) and not any(self.step(step_id).enabled for step_id in chosen)
         self.commands["comment_out"].setText("Bring back" if off else "Comment out")
 
@@ -327,7 +331,10 @@ class ProgramView(QWidget):
         chosen = self.tree.chosen()
         self.code.show_chosen([line for step_id in chosen for line in self.words.lines_of(step_id)], scroll=scroll)
         one = self.step(chosen[0]) if len(chosen) == 1 else None
-        self.inspector.show_step(one, offers_of(self.session.document))
+        if one is None or not self.inspector.isVisible():
+            self.inspector.show_nothing()
+        else:
+            self.inspector.show_step(one, offers_of(self.session.document))
 
     def _selection_changed(self) -> None:
         if self._showing:
@@ -399,6 +406,7 @@ class ProgramView(QWidget):
         session, tree = self.session, self.tree
         session.document_changed.connect(self.show_document)
         session.history_changed.connect(self.refresh_commands)
+        self.inspector.became_visible.connect(lambda: self._show_selection(scroll=False))
         session.insertion_changed.connect(self._show_insertion)
         self.model.copy_text = session.copy
         self.model.moved.connect(self._move, Qt.ConnectionType.QueuedConnection)

@@ -164,6 +164,6 @@ def test_the_inspector_keeps_the_cursor_while_its_own_change_comes_back(qtbot: Q
 def test_without_a_step_the_inspector_says_what_to_do(qtbot: QtBot) -> None:
     inspector = Inspector(offers())
     qtbot.addWidget(inspector)
-    inspector.show_step(None, offers())
+    inspector.show_nothing()
     assert inspector.stack.currentWidget() is inspector.empty
     assert "Select" in inspector.empty.text()
