@@ -44,7 +44,6 @@ class SimulatorProcess:
             command,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
             text=True,
             env=_environment(),
             **_own_group(),

@@ -17,6 +17,7 @@ from device.simulator.times import CHARACTER_BITS, TICKS
 SLICE_S: Final = 0.005
 FELL_BEHIND_S: Final = 0.5  # after that (a suspended computer) virtual time does not hurry to catch up
 UNPACED_BYTES: Final = 4096
+RECORDS_KEPT: Final = 200  # newest messages and errors that `state` tells; a served controller runs for days
 
 
 class Line(Protocol):
@@ -164,6 +165,7 @@ class Server:
     def _send(self) -> None:
         uart = self.simulation.uarts[0]
         taken = self.line.write(self.simulation.transmit(1))
+        self.simulation.unit.records.keep(RECORDS_KEPT)
         if taken != uart.host_ready:
             uart.set_host_ready(taken, self.simulation.ticks)
 

@@ -40,6 +40,13 @@ class Records:
         if rest:
             self._open[port] = (began, rest)
 
+    def keep(self, count: int) -> None:
+        """Forgets all but the newest messages and errors."""
+        if len(self.messages) > 2 * count:
+            del self.messages[:-count]
+        if len(self.errors) > 2 * count:
+            del self.errors[:-count]
+
     def flush(self, port: int) -> None:
         """Ends a message that has no line end, as a prompt has none."""
         began, text = self._open.pop(port, (0.0, ""))

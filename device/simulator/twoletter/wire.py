@@ -98,6 +98,8 @@ def _line_end(unit: Unit, port: Port) -> None:
     elif too_long:
         _refuse(unit, port, BUFFER_FULL)
     else:
+        if text.lstrip().startswith(("%", "!")):
+            unit.notice("% and ! are not simulated: daisy chains are not part of this version")
         port.pending, port.position = text, 0
         unit.changed = True
 

@@ -25,7 +25,9 @@ def connect(address: str) -> socket.socket:
 def until(client: socket.socket, end: bytes) -> bytes:
     data = b""
     while not data.endswith(end):
-        data += client.recv(4096)
+        more = client.recv(4096)
+        assert more, data
+        data += more
     return data
 
 
