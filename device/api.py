@@ -104,6 +104,7 @@ class Controller:
         self._time: tuple[float, float] | None = None
         self._used = clock()
         self.door.control = kind is Kind.SIMULATOR
+        self.door.resting = self._suspended
         self._events = Events(self)
         self.link = Link(opener or _no_transport, self.line, self._events, self.door, clock)
         if opener is not None and threaded:
@@ -255,7 +256,7 @@ class Controller:
 
     def read(self, *expressions: str) -> Future[tuple[float, ...]]:
         """Reads expressions (`_KPX`, `V1`) right under any number format; refused ones raise Refused."""
-        return self.run(self._read_steps(expressions), Priority.USER, "user")
+        return self.run(self._read_steps(expressions), Priority.POLL, "user")
 
     def _read_steps(self, expressions: tuple[str, ...]) -> Steps[tuple[float, ...]]:
         values: list[float] = []

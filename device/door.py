@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 
 from codegen.twoletter import nodes
@@ -84,9 +85,10 @@ class Door:
         self._choose_unit = f"%{unit}\r".encode() if unit is not None else b""  # ours on a daisy chain
         self.control = False
         self.question = ""  # why only an answer may leave, in words
+        self.resting: Callable[[], str] = lambda: ""  # why live reads rest now
         self.erasing = False  # the confirmed action that erases the memory sets it for its one send
 
-    def refusal(self, data: bytes, *, stop: bool, answer: bool) -> str:
+    def refusal(self, data: bytes, *, stop: bool, answer: bool, poll: bool = False) -> str:
         """Why these bytes may not leave, as one sentence, or nothing."""
         if stop:
             return ""
@@ -94,6 +96,8 @@ class Door:
             return "" if self.question or self.control else "No question is waiting for an answer."
         if self.question:
             return f"Not sent: {self.question} Answer it, or press STOP."
+        if poll and self.resting():
+            return self.resting()
         if MASTER_RESET in data and not self.erasing:
             return "Control-R control-S erases the controller's memory; it is sent only by its own confirmed action."
         if not self.control and data != self._choose_unit and not only_reads(data):

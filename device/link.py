@@ -280,7 +280,12 @@ class Link:
     def _transmit(self, task: Task[Any]) -> None:
         step = task.step
         assert isinstance(step, Send)
-        refusal = self.door.refusal(step.data, stop=task.priority is Priority.STOP, answer=step.answers_prompt)
+        refusal = self.door.refusal(
+            step.data,
+            stop=task.priority is Priority.STOP,
+            answer=step.answers_prompt,
+            poll=task.priority is Priority.POLL,
+        )
         if refusal:
             self._throw(task, NotAllowed(refusal))
             return

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import TypeVar
 
 from codegen.models import model
 from device.api import Controller, Kind, State
+from device.simulator.plant import Plant
 from device.simulator.simulation import Simulation
 from device.transport import LineSettings, Transport
 from device.transport.loopback import Loopback
@@ -19,9 +20,14 @@ class Bench:
     """`Bench("ssc4").ready()`: simulation, loopback and controller, with `run_until`."""
 
     def __init__(
-        self, name: str = "ssc4", baud: int | None = 19200, kind: Kind = Kind.SIMULATOR, **more: object
+        self,
+        name: str = "ssc4",
+        baud: int | None = 19200,
+        kind: Kind = Kind.SIMULATOR,
+        plants: Mapping[str, Plant] | None = None,
+        **more: object,
     ) -> None:
-        self.simulation = Simulation(model(name), baud=baud, compiled=False)
+        self.simulation = Simulation(model(name), plants, baud=baud, compiled=False)
         self.loopback = Loopback(self.simulation)
         self.refuse_to_open = False
         self.sent = bytearray()

@@ -44,6 +44,19 @@ def test_fifty_questions_get_exactly_their_fifty_answers(baud: int | None) -> No
     assert state["errors"] == []
 
 
+@pytest.mark.parametrize("moment", range(16))
+def test_a_read_on_its_way_when_the_program_is_started_is_never_the_answer(moment: int) -> None:
+    bench = Bench("ssc4").ready()
+    controller = bench.controller
+    controller.watch("all", columns(controller.model))
+    bench.result(controller.download(LOOP).future)
+    bench.run(0.5 + moment * 0.0041)
+    bench.result(controller.execute("A", anyway=True))
+    bench.run_until(lambda: controller.pending_prompt is not None, 3.0)
+    assert bench.simulation.state()["errors"] == []
+    assert bench.simulation.state()["variables"]["N"] == 0
+
+
 def test_while_a_question_waits_values_go_stale_and_commands_are_refused() -> None:
     bench = asking()
     controller = bench.controller

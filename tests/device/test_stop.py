@@ -7,6 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from device.api import StopState
+from device.simulator.plant import Place, Plant
 from device.stop import stop_bytes
 from tests.device.bench import Bench
 
@@ -43,8 +44,8 @@ LINE_STATES = (*TYPED, *ON_THE_LINE)
 MOTION = {"still": "", "move": "PR 4000000;SP 100000;BG X", "jog": "JG 50000;BG X"}
 
 
-def set_up(motion: str) -> Bench:
-    bench = Bench("ssc4").ready()
+def set_up(motion: str, **more: object) -> Bench:
+    bench = Bench("ssc4", **more).ready()
     bench.result(bench.controller.download(PROGRAM).future)
     bench.ask("SH")
     if MOTION[motion]:
@@ -218,7 +219,7 @@ def contoured(bench: Bench) -> None:
 
 @pytest.mark.parametrize("moving", [coordinated, geared, contoured])
 def test_other_kinds_of_motion_stand_still_too(moving: Callable[[Bench], None]) -> None:
-    bench = set_up("still")
+    bench = set_up("still", plants={"X": Plant(auxiliary=Place.EXTERNAL)})
     moving(bench)
     bench.run(0.1)
     before = [axis["commanded"] for axis in bench.simulation.state()["axes"].values()]
