@@ -14,7 +14,7 @@ from typing import NamedTuple
 from codegen.document import Document
 from codegen.drift import drift
 from codegen.fields import SYSTEM_LABELS, Choice, fields_of
-from codegen.instructions import End, Instruction, Jump, Label, LoopRate, Subroutine, TwoLetterCode
+from codegen.instructions import End, Execute, Instruction, Jump, Label, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
 from codegen.numbers import parse_number
 from codegen.program import Section, Step, assigned, is_closed, program_label
@@ -173,6 +173,8 @@ def _labels(instruction: Instruction) -> tuple[tuple[str, ...], str]:
             return (instruction.label,), ""
         case Jump():
             return (), instruction.target
+        case Execute():
+            return (), instruction.label
         case TwoLetterCode():
             found = parse(instruction.text).statements()
             return tuple(node.name for _, node in found if isinstance(node, LabelNode)), ""

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from codegen.document import Document
 from codegen.expressions import Bad, write
-from codegen.fields import AXES, Dimension, ListOf, PerAxis, PerAxisText, Quantity, fields_of, value_of
+from codegen.fields import AXES, OFF, Dimension, ListOf, PerAxis, PerAxisText, Quantity, fields_of, value_of
 from codegen.numbers import plain
 from codegen.program import Section, Steps, with_section
 from codegen.setup import Axis, Setup
@@ -58,7 +58,10 @@ def _item(item: Any, factors: dict[str, Fraction]) -> Any:
 
 
 def _per_axis(texts: PerAxisText, factors: dict[str, Fraction]) -> PerAxisText:
-    x, y, z, w = (scaled_text(text, factors[letter]) for letter, text in zip(AXES, texts, strict=True))
+    x, y, z, w = (
+        text if text.strip().lower() == OFF else scaled_text(text, factors[letter])
+        for letter, text in zip(AXES, texts, strict=True)
+    )
     return x, y, z, w
 
 

@@ -19,7 +19,17 @@ from codegen.fields.field import (
     is_shown,
     value,
 )
-from codegen.fields.numeric import Condition, Dimension, ExpressionField, Number, Quantity, Smoothing, value_of
+from codegen.fields.numeric import (
+    OFF,
+    Condition,
+    Dimension,
+    ExpressionField,
+    Limit,
+    Number,
+    Quantity,
+    Smoothing,
+    value_of,
+)
 from codegen.fields.texts import (
     LABEL,
     SYSTEM_LABELS,
@@ -36,6 +46,7 @@ __all__ = [
     "AXES",
     "LABEL",
     "NONE",
+    "OFF",
     "SYSTEM_LABELS",
     "AxisName",
     "AxisSet",
@@ -50,6 +61,7 @@ __all__ = [
     "Flag",
     "InputNumber",
     "LabelName",
+    "Limit",
     "ListOf",
     "MessageText",
     "Number",

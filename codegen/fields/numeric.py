@@ -192,6 +192,33 @@ class Smoothing(Number):
         return super().wrong(value, context)
 
 
+OFF = "off"
+
+
+@dc.dataclass(frozen=True, kw_only=True)
+class Limit(Quantity):
+    """A position that limits the travel, or `off`; the limits of the setup do not bound it."""
+
+    literal: bool = True
+    warns: ClassVar[bool] = False
+
+    def wrong(self, value: str, context: Context) -> str | None:
+        return None if value.strip().lower() == OFF else super().wrong(value, context)
+
+    def range_problem(self, number: Fraction, context: Context) -> str | None:
+        most = LARGEST / context.setup.factor(self.dimension, context.axis)
+        return None if abs(number) < most else f"{self.label} is further than the controller can count"
+
+    def text(self, value: str, context: Context) -> str:
+        return OFF if value.strip().lower() == OFF else super().text(value, context)
+
+    def counts(self, value: str, context: Context) -> Counts | None:
+        return None
+
+
+LARGEST = 2147483647  # counts; the widest position register
+
+
 @dc.dataclass(frozen=True, kw_only=True)
 class ExpressionField(Field):
     """Any expression, raw: positions and speeds in it are counts."""

@@ -137,7 +137,17 @@ def target(name: str, label: str, *more: Value) -> Call:
 
 def listed(name: str, *items: str) -> Call:
     """`DM A[10],B[20]`, `MG "text",V`: items in their own notation."""
-    _row(name, Takes.DIMENSIONS, Takes.DEALLOCATE, Takes.MESSAGE, Takes.INPUT, Takes.ARRAYS, Takes.SOURCES, Takes.TEXT)
+    _row(
+        name,
+        Takes.DIMENSIONS,
+        Takes.DEALLOCATE,
+        Takes.MESSAGE,
+        Takes.INPUT,
+        Takes.ARRAYS,
+        Takes.SOURCES,
+        Takes.TEXT,
+        Takes.MASTER,
+    )
     return Call(name, ",".join(items))
 
 

@@ -19,6 +19,7 @@ from codegen.fields import (
     Flag,
     InputNumber,
     LabelName,
+    Limit,
     ListOf,
     MessageText,
     Number,
@@ -87,7 +88,7 @@ def values(field: Field) -> st.SearchStrategy[Any]:
         case Flag():
             return st.booleans()
         case PerAxis(of=inner):
-            one = st.one_of(st.just(""), values(inner))
+            one = st.one_of(st.just(""), texts(inner))
             return st.tuples(one, one, one, one)
         case Quantity(dimension=dimension, literal=literal):
             low, high = SPANS[dimension]
@@ -124,6 +125,19 @@ def values(field: Field) -> st.SearchStrategy[Any]:
             return st.lists(items(row), min_size=1, max_size=6).map(tuple)
         case _:
             raise AssertionError(f"no values for {field}")
+
+
+def texts(field: Field) -> st.SearchStrategy[str]:
+    """Valid values for one axis of a per-axis field."""
+    match field:
+        case Flag():
+            return st.sampled_from(["on", "off"])
+        case Choice(kind=kind):
+            return st.sampled_from([member.value for member in kind])
+        case Limit():
+            return st.one_of(st.just("off"), decimals(-900, 900))
+        case _:
+            return values(field)
 
 
 def items(kind: type[Any]) -> st.SearchStrategy[Any]:
