@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar, QToolButton
 
@@ -213,6 +213,8 @@ class Actions(QObject):
             action.setIconText(row.short)
         elif row.toolbar:
             action.setIconText(row.text.rstrip("…"))
+        if row.name == "help":
+            action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
         action.setCheckable(row.checkable)
         action.triggered.connect(lambda _=False: handler())
         return action

@@ -161,6 +161,8 @@ class Studio(QObject):
         self.window.header.switch.wanted.connect(talk.control)
         self.display.io_control_wanted.connect(talk.io_control)
         self.display.output_wanted.connect(talk.output)
+        self.display.connect_wanted.connect(self.start.look)
+        self.display.simulator_wanted.connect(self.start.use_simulator)
         self.terminal.command.connect(talk.typed)
         self.simulator.stimulus.connect(talk.stimulus)
 

@@ -62,10 +62,12 @@ class Status(QStatusBar):
     def show_program(self, words: str) -> None:
         """What thread 0 does."""
         set_text(self.program, words)
+        self.program.setVisible(bool(words))
 
     def show_position(self, words: str) -> None:
         """Where the first axis is."""
         set_text(self.position, words)
+        self.position.setVisible(bool(words))
 
     def say(self, words: str) -> None:
         """A sentence that goes away by itself."""

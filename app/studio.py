@@ -61,7 +61,8 @@ def list_ports() -> list[Candidate]:
 
 
 def help_pages() -> Mapping[str, str]:
-    """Every help page by its title."""
+    """Every help page by its title: our own of the windows, and one for each instruction."""
     from codegen.docs import pages
 
-    return pages()
+    texts = [path.read_text(encoding="utf-8") for path in sorted(resources.path("help").glob("*.md"))]
+    return {**{text.partition("\n")[0].removeprefix("# "): text for text in texts}, **pages()}

@@ -75,7 +75,22 @@ def scenes(application: object, folder: Path, theme: str) -> Iterator[tuple[str,
         stage.go()
         yield f"panel-{dock.lower()}", window
     yield from _dialogs(stage)
+    yield from _program(stage)
     studio.close()
+
+
+def _program(stage: object) -> Iterator[tuple[str, object]]:
+    from codegen.instructions import ALL
+
+    program = stage.studio.program  # type: ignore[attr-defined]
+    for mode in ("both", "code"):
+        program.set_view(mode)
+        yield f"program-{mode}", stage.studio.window  # type: ignore[attr-defined]
+    program.set_view("program")
+    for kind in ALL:
+        dialog = program.dialogs.add(kind)
+        yield f"instruction-{kind.title.lower().replace(' ', '-').replace('/', '-')}", dialog
+        dialog.reject()
 
 
 def _offline(stage: object) -> Iterator[tuple[str, object]]:

@@ -12,6 +12,7 @@ from app.compose import Studio
 from app.connection import Opened
 from app.search import Candidate
 from app.settings import Settings
+from app.studio import help_pages
 from device.api import Kind, LineSettings, NoticeKind
 from tests.fakes import FakeController, FakeWorld, live_row
 
@@ -81,8 +82,7 @@ def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.
         controllers.append(fake)
         return Opened(fake, world)
 
-    pages = {"Program window": "# Program window\n\nWhere programs are written."}
-    studio = Studio(application, settings, folder, connect, lambda: list(ports), pages, clock=lambda: now[0])
+    studio = Studio(application, settings, folder, connect, lambda: list(ports), help_pages(), clock=lambda: now[0])
     if example:
         studio.session.open(resources.path(f"examples/{example}"))
     return Stage(studio, controllers, world, ports, now)

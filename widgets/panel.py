@@ -20,6 +20,7 @@ class Panel(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.title)
+        self.setProperty("helpPage", self.title)
         self.controller: Controller | None = None
 
     def attach(self, controller: Controller) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 import pytest
@@ -16,12 +17,15 @@ from PySide6.QtWidgets import (
     QPlainTextEdit,
     QSlider,
     QTabBar,
+    QTextBrowser,
     QTextEdit,
     QWidget,
 )
 
+from app.studio import help_pages
 from tests.app.test_stop import PLACES
 from tests.stage import Stage
+from widgets.help.topic import topic_of
 
 CONTROLS = (
     QAbstractButton,
@@ -30,6 +34,7 @@ CONTROLS = (
     QAbstractSpinBox,
     QSlider,
     QPlainTextEdit,
+    QTextBrowser,
     QTextEdit,
     QAbstractItemView,
 )
@@ -145,3 +150,37 @@ def test_buttons_and_fields_are_at_least_32_px_high(place: str, stage: Stage) ->
         if isinstance(widget, kinds) and widget.height() < 32
     ]
     assert low == []
+
+
+@pytest.mark.parametrize("title", ["Display", "Simulator", "Terminal", "Messages"])
+def test_f1_opens_the_page_of_the_panel_that_has_the_focus(stage: Stage, title: str) -> None:
+    stage.connect("simulator")
+    stage.go()
+    dock = stage.studio.window.docks[title]
+    dock.bring()
+    stage.go()
+    focus = next(widget for widget in controls(dock) if widget.focusPolicy() & Qt.FocusPolicy.TabFocus)
+    assert topic_of(focus) == title
+    stage.studio.desk.show_help(topic_of(focus) or "")
+    assert stage.studio.desk.help is not None
+    assert title in stage.studio.desk.help.findChildren(QTextBrowser)[0].toPlainText()
+
+
+@pytest.mark.parametrize("place", ["the welcome window", "the serial setup", "the setup"])
+def test_every_dialog_names_a_page_that_exists(place: str, stage: Stage) -> None:
+    page = topic_of(PLACES[place](stage))
+    assert page in help_pages()
+
+
+def test_stop_and_the_switch_have_pages_of_their_own(stage: Stage) -> None:
+    header = stage.studio.window.header
+    assert topic_of(header.stop) in help_pages()
+    assert topic_of(header.switch.watch) in help_pages()
+    assert topic_of(stage.studio.program.tree) in help_pages()
+
+
+def test_every_link_between_pages_leads_somewhere() -> None:
+    pages = help_pages()
+    links = [link for text in pages.values() for link in re.findall(r"\(page:([^)]+)\)", text)]
+    assert links
+    assert all(link.replace("%20", " ") in pages for link in links)

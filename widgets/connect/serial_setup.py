@@ -54,6 +54,7 @@ class SerialSetup(QDialog):
     def __init__(self, choice: SerialChoice, ports: Sequence[PortShown], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Serial communication setup")
+        self.setProperty("helpPage", "Serial communication setup")
         self.setModal(False)
         self.port = QComboBox()
         self.port.setEditable(True)

@@ -48,6 +48,7 @@ class Welcome(QDialog):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Twoletter Studio")
+        self.setProperty("helpPage", "Connecting")
         self.setModal(False)
         self.heading, self.sentence, self.busy = QLabel(), QLabel(), QProgressBar()
         self.ask = QFrame()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from device.api import Kind
 from widgets.display.levels import Levels
@@ -35,6 +35,7 @@ class DisplayPanel(Panel):
     io_control_wanted = Signal(bool)
     output_wanted = Signal(int, bool)
     connect_wanted = Signal()
+    simulator_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(parent)
@@ -116,6 +117,7 @@ class DisplayPanel(Panel):
         controller = self.controller
         linked = controller is not None and controller.kind is not Kind.OFFLINE and self._setup is not None
         self.empty.setVisible(not linked)
+        self._ways.setVisible(not linked)
         self._body.setVisible(linked)
         if not linked or controller is None or self._setup is None:
             return
@@ -149,6 +151,15 @@ class DisplayPanel(Panel):
         self.empty.setWordWrap(True)
         self.empty.setProperty("role", "quiet")
         outer.addWidget(self.empty)
+        self._ways = QWidget()
+        ways = QHBoxLayout(self._ways)
+        ways.setContentsMargins(0, 8, 0, 0)
+        for text, signal in (("Connect…", self.connect_wanted), ("Start the simulator", self.simulator_wanted)):
+            button = QPushButton(text)
+            button.clicked.connect(signal)
+            ways.addWidget(button)
+        ways.addStretch(1)
+        outer.addWidget(self._ways)
         self._body = QScrollArea()
         self._body.setWidgetResizable(True)
         self._body.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

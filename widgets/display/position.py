@@ -120,6 +120,7 @@ class AxisReadout(QWidget):
         second.addWidget(self.state)
         second.addStretch(1)
         second.addWidget(self.commanded)
+        third.setSpacing(12)
         third.addWidget(self.travel, 1)
         third.addWidget(self.age)
         third.addStretch(0)

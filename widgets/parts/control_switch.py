@@ -24,6 +24,7 @@ class ControlSwitch(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.badge = KindBadge()
+        self.setProperty("helpPage", "Watch and Control")
         self.watch, self.control = QToolButton(), QToolButton()
         group = QButtonGroup(self)
         for button, text, name, help_text in (

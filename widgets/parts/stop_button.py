@@ -36,6 +36,7 @@ class StopButton(QAbstractButton):
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Stop")
+        self.setProperty("helpPage", "STOP")
         self.setToolTip(HELP)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.show_state(Kind.OFFLINE, StopState.NO_LINK)

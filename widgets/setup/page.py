@@ -140,6 +140,7 @@ class SetupPage(QDialog):
     def __init__(self, setup: Setup, has_content: bool, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Setup")
+        self.setProperty("helpPage", "Setup")
         self.setModal(False)
         self._before, self._has_content = setup, has_content
         self.model = QComboBox()
