@@ -20,7 +20,6 @@ from device.simulator.twoletter.records import ProgramError
 from device.simulator.twoletter.state import AXES, CommandError, State
 from device.simulator.twoletter.threads import Interpreter
 from device.simulator.twoletter.unit import Unit
-from device.simulator.twoletter.wire import is_host_comment
 from device.simulator.uart import Uart
 
 __all__ = ["CommandError", "DownloadRefused", "Simulation", "Snapshot"]
@@ -106,7 +105,7 @@ class Simulation:
 
     def load_program(self, text: str) -> None:
         """Puts a program into the memory as a download does; the host's comments are left out."""
-        lines = tuple(line.rstrip("\r") for line in text.split("\n") if not is_host_comment(line.rstrip("\r")))
+        lines = tuple(line.rstrip("\r") for line in text.split("\n") if not memory.is_host_comment(line.rstrip("\r")))
         if lines and not lines[-1]:
             lines = lines[:-1]
         memory.check_program(lines, self.model)

@@ -42,5 +42,7 @@ class Clock:
 
     def set_period(self, period: int) -> None:
         """A new sample time, from the next sample on; call it caught up."""
+        if period < 1:
+            raise ValueError(f"sample time {period}")
         self.period = period
         self.motion.set_sample_time(float(period))

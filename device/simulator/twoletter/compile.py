@@ -80,9 +80,7 @@ def compile_line(text: str, unit: Unit) -> list[Op]:
 
 
 def takes_time(statement: Statement) -> bool:
-    """Labels, empty statements and the host's comments cost no command time."""
-    if isinstance(statement, Comment):
-        return statement.mark == "NO"
+    """Labels and empty statements cost no command time."""
     return not isinstance(statement, Label | Nothing)
 
 
@@ -90,6 +88,8 @@ def compile_statement(statement: Statement, following: int, unit: Unit, code: Co
     """One statement as an op that answers `following` or where it jumps to."""
     if isinstance(statement, Broken | Foreign):
         return _refuse(statement.code)
+    if isinstance(statement, Comment) and statement.mark != "NO":
+        return _refuse(1)  # the host's comments mean nothing to a controller
     if isinstance(statement, Command):
         return command_op(statement, following, unit, code, from_port=from_port)
     if isinstance(statement, Assign):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from codegen.models import Model
-from codegen.twoletter.nodes import Label
+from codegen.twoletter.nodes import Comment, Label
 from codegen.twoletter.parse import parse_line
 from device.simulator.twoletter.state import CommandError, Download, State
 
@@ -40,6 +40,12 @@ def labels_of(lines: tuple[str, ...]) -> dict[str, int]:
                 if isinstance(statement, Label):
                     labels.setdefault(statement.name, number)
     return labels
+
+
+def is_host_comment(text: str) -> bool:
+    """REM lines are the host's, which leaves them out of a download (dmc-1412-1414.txt l.2588)."""
+    statements = parse_line(text).statements
+    return bool(statements) and isinstance(statements[0], Comment) and statements[0].mark != "NO"
 
 
 def bad_label(lines: tuple[str, ...], model: Model) -> tuple[int, int]:

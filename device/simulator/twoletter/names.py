@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.evaluate import EvaluationError
 from codegen.twoletter.fixed import ONE, string_value
 from device.simulator.twoletter import behaviour
@@ -23,6 +24,7 @@ class SimulatedNames:
 
     def __init__(self, unit: Unit) -> None:
         self.unit = unit
+        self._foreign = frozenset(name for name, row in COMMANDS.items() if not row.known_to(unit.model))
 
     def variable(self, name: str) -> int:
         try:
@@ -39,6 +41,8 @@ class SimulatedNames:
         return array[index]
 
     def operand(self, name: str, suffix: str) -> int:
+        if name in self._foreign:
+            raise EvaluationError(UNKNOWN_OPERAND)
         reads = behaviour.READS.get(name)
         axis = self._place(name, suffix)
         if reads is not None:

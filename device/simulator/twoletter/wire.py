@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import read_number
-from codegen.twoletter.nodes import Comment
-from codegen.twoletter.parse import parse_line
 from device.simulator.twoletter import editor, memory
 from device.simulator.twoletter.behaviour import operator
 from device.simulator.twoletter.behaviour.messages import answer_input
@@ -141,8 +139,7 @@ def _data_line(unit: Unit, port: Port, *, last: bool) -> None:
     if last and not text:
         return
     if port.mode == "download":
-        if not is_host_comment(text):
-            memory.add_line(download, text, unit.model)
+        memory.add_line(download, text, unit.model)
         return
     number = read_number(text)
     if download.error or not text:
@@ -154,12 +151,6 @@ def _data_line(unit: Unit, port: Port, *, last: bool) -> None:
     else:
         memory.set_element(unit.state, download.array, download.index, number)
         download.index += 1
-
-
-def is_host_comment(text: str) -> bool:
-    """REM lines are the host's and never stored (dmc-1412-1414.txt l.2588)."""
-    statements = parse_line(text).statements
-    return bool(statements) and isinstance(statements[0], Comment) and statements[0].mark != "NO"
 
 
 def _finish(unit: Unit, port: Port) -> None:

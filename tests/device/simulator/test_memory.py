@@ -62,10 +62,14 @@ def test_what_just_fits_is_accepted() -> None:
     assert bench.ask("MG _DL{F3.0}") == " 000"
 
 
-def test_host_comments_are_not_stored() -> None:
-    bench = Bench()
-    bench.type("DL\r#A\rREM host only\rNO kept\rEN\r\\")  # dmc-1412-1414.txt l.2588-2616
+def test_host_comments_are_left_out_by_the_host_only() -> None:
+    bench = Bench()  # dmc-1412-1414.txt l.2588-2616
+    bench.load("#A\nREM host only\nNO kept\nEN")
     assert bench.ask("LS") == "000 #A\r\n001 NO kept\r\n002 EN"
+    bench.type("DL\r#A\rREM sent as it is\rEN\r\\")
+    bench.type("XQ#A\r")
+    assert bench.texts() == ["?001 REM sent as it is"]
+    assert bench.ask("TC1") == "1 Unrecognized command"
 
 
 def test_download_and_edit_are_refused_while_a_program_runs() -> None:

@@ -303,3 +303,18 @@ def test_a_stepper_needs_its_jumper() -> None:
     bench.ask("SHY;PR ,500;BGY")
     bench.wait(500)
     assert bench.ask("TDY") == " 0000000500"
+
+
+def test_an_external_clock_is_said_to_be_missing() -> None:
+    bench = Bench("dmc1412")
+    bench.ask("TM -1;WT 10")
+    assert bench.ask("TM?") == "-00001"
+    assert bench.simulation.notices == [
+        "an external sample clock (negative TM) is not simulated: the last sample time goes on"
+    ]
+
+
+@pytest.mark.parametrize("operand", ["_VS", "_LM", "_AV", "_VE", "_CS"])
+def test_operands_of_commands_that_a_model_has_not(operand: str) -> None:
+    assert Bench("dmc1412").refused(f"MG {operand}") == 58  # commands.md 11
+    assert Bench("ssc2").ask(f"MG {operand}")

@@ -52,7 +52,10 @@ def _speed(unit: Unit, axis: int, value: int) -> None:
 
 
 def _sample_time(unit: Unit, axis: int, value: int) -> None:
-    unit.set_sample_time(value // ONE)
+    if value < ONE:
+        unit.notice("an external sample clock (negative TM) is not simulated: the last sample time goes on")
+    else:
+        unit.set_sample_time(value // ONE)
 
 
 def _look(unit: Unit, axis: int, value: int) -> None:
