@@ -74,10 +74,10 @@ def random_edit(chance: random.Random, document: Document, number: int) -> Docum
 
 
 def timed(action: Callable[[], object]) -> float:
-    """Milliseconds of one action."""
-    began = time.perf_counter()
+    """Milliseconds of one action, in processor time: busy neighbours do not count."""
+    began = time.process_time()
     action()
-    return 1000 * (time.perf_counter() - began)
+    return 1000 * (time.process_time() - began)
 
 
 def many_edits(count: int = 500) -> Figure:
@@ -93,9 +93,9 @@ def many_edits(count: int = 500) -> Figure:
             shown(before, after)
             return after
 
-        began = time.perf_counter()
+        began = time.process_time()
         document = one()
-        spent.append(1000 * (time.perf_counter() - began))
+        spent.append(1000 * (time.process_time() - began))
     spent.sort()
     return Figure("an edit of 1000 steps", spent[int(len(spent) * 0.95)], "ms (p95)", most=16, note=f"of {count}")
 
