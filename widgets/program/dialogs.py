@@ -69,6 +69,8 @@ class Dialogs(QObject):
         dialog.finished.connect(lambda _: self.open.remove(dialog))
         dialog.help_requested.connect(self.help_requested)
         dialog.show()
+        dialog.raise_()
+        dialog.activateWindow()
         dialog.form.fields.focus_first()
         return dialog
 

@@ -57,6 +57,7 @@ class Header(QWidget):
             self.name.setText(program.name)
         if program.description != self.description.text():
             self.description.setText(program.description)
+            self.description.setCursorPosition(0)
         label = f"#{program_label(program)}"
         if label != self.label.text():
             self.label.setText(label)

@@ -141,6 +141,7 @@ class Palette(QWidget):
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
                 current = self.tree.currentItem()
                 if current is not None:
+                    self.search.clear()
                     self._activated(current)
                 return True
             if event.key() == Qt.Key.Key_Escape and self.search.text():
