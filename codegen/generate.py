@@ -18,8 +18,8 @@ from codegen.instructions import End, Execute, Instruction, Jump, Label, LoopRat
 from codegen.instructions.flow import EndOf, Routine
 from codegen.numbers import parse_number
 from codegen.program import Section, Step, assigned, is_closed, program_label
-from codegen.read import needed, problems
-from codegen.setup import Finding, Setup
+from codegen.read import axes_of, needed, problems
+from codegen.setup import Finding, Setup, never_set_up, setup_problems
 from codegen.twoletter.calls import BODY, Call
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.emit import statements
@@ -102,6 +102,7 @@ class Compiled:
     names: tuple[str, ...]  # variables it gives a value
     errors: tuple[Finding, ...]
     warnings: tuple[Finding, ...]
+    unscaled: str  # axes it needs whose scale was never set up
     noteworthy: bool  # whether the last pass has more to do than to add the lines
 
 
@@ -121,7 +122,7 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
     warnings = tuple(finding for finding in found if finding.severity != "error")
     defines, target = _labels(instruction)
     if errors:
-        return Compiled((), (), 0, defines, target, (), (), errors, warnings, True)
+        return Compiled((), (), 0, defines, target, (), (), errors, warnings, "", True)
     build = Build(setup)
     made = statements(instruction, build)
     texts = [statement.text for statement in made]
@@ -132,6 +133,7 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
         errors = (Finding("", message),)
     elif refusal := next(filter(None, (refused(each, setup) for each in made if isinstance(each, Call))), None):
         errors = (Finding("", refusal),)
+    unscaled = "".join(letter for letter in axes_of(instruction) if not setup.axis(letter).is_set_up)
     split = made.index(BODY) if BODY in made else len(made)
     arrays = tuple(each.arguments.split("[")[0] for each in made if isinstance(each, Call) and each.name == "DM")
     return Compiled(
@@ -144,7 +146,16 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
         assigned(instruction),
         errors,
         warnings,
-        bool(errors or warnings or defines or target or arrays or isinstance(instruction, LoopRate | TwoLetterCode)),
+        unscaled,
+        bool(
+            errors
+            or warnings
+            or unscaled
+            or defines
+            or target
+            or arrays
+            or isinstance(instruction, LoopRate | TwoLetterCode)
+        ),
     )
 
 
@@ -213,6 +224,7 @@ class _Pass:
         self.first_array = -1
         self.made: dict[int, Compiled] = {}
         self.raw_labels: list[str] = []
+        self.unscaled = ""
         self.taken = self.names_taken()
         self.number = 0
 
@@ -237,6 +249,7 @@ class _Pass:
         return str(self.number)
 
     def run(self) -> None:
+        self.problems += [finding for finding in setup_problems(self.setup) if finding.severity == "error"]
         label = program_label(self.program, self.raw_labels)
         if self.program.auto:
             self.lines.append(Line("#AUTO"))
@@ -284,6 +297,10 @@ class _Pass:
         if made.errors:
             problem = made.errors[0].message
             self.lines.append(Line(f"' {problem}", step.id, problem))
+        for letter in made.unscaled:
+            if letter not in self.unscaled:
+                self.unscaled += letter
+                self.problems.append(Finding("", never_set_up(self.setup, letter), "warning", letter, step.id))
         for label in made.defines:
             if label in self.defined:
                 self.problems.append(Finding("name", f"The label {label} is used twice", "error", "", step.id))

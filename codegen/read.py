@@ -198,6 +198,20 @@ def _sentence(instruction: Instruction, setup: Setup) -> str:
     return text + special(setup) if special is not None else text
 
 
+def axes_of(instruction: Instruction) -> str:
+    """Letters of the axes for which an instruction holds a value in a unit."""
+    letters = ""
+    for name, field in fields_of(instruction).items():
+        value = getattr(instruction, name)
+        if field.empty(value) or not is_shown(instruction, name):
+            continue
+        if isinstance(field, PerAxis) and isinstance(field.of, Quantity):
+            letters += field.given(value)
+        elif isinstance(field, Quantity) and field.axis:
+            letters += getattr(instruction, field.axis)
+    return "".join(letter for letter in AXES if letter in letters)
+
+
 # ---------------------------------------------------------------------- memos
 
 

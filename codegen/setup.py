@@ -13,7 +13,7 @@ from typing import Any
 
 from codegen import conversion
 from codegen.conversion import CALIBRATED_US, LARGEST, Sent
-from codegen.fields import AXES, Choice, Dimension, Flag, Number, Text, value
+from codegen.fields import AXES, Choice, Context, Dimension, Flag, Number, Text, fields_of, is_shown, value
 from codegen.models import MODELS, Model
 from codegen.numbers import parse_number, plain
 from codegen.twoletter.commands import COMMANDS
@@ -130,7 +130,7 @@ class Axis:
     @property
     def is_set_up(self) -> bool:
         """Whether somebody entered the scale (an axis in counts needs none)."""
-        return self.unit is Unit.COUNT or parse_number(self.counts_per_unit) is not None
+        return self.unit is Unit.COUNT or self.counts_per_unit.strip() != ""
 
     @property
     def is_stepper(self) -> bool:
@@ -307,25 +307,41 @@ class Finding:
     step: str = ""
 
 
+@lru_cache(maxsize=64)
 def setup_problems(setup: Setup) -> tuple[Finding, ...]:
     """What is wrong or unfinished in a setup."""
-    found: list[Finding] = []
     if setup.model not in MODELS:
         return (Finding("model", f"Controller: there is no model '{setup.model}'"),)
+    found: list[Finding] = []
     for letter in setup.letters:
-        axis = setup.axis(letter)
-        if not axis.is_set_up:
-            text = f"Axis {letter}: the scale was never set up (1 count is taken as 1 {axis.symbol})"
-            found.append(Finding("counts_per_unit", text, "warning", letter))
-        low, high = parse_number(axis.reverse_limit), parse_number(axis.forward_limit)
-        if low is not None and high is not None and low >= high:
-            text = f"Axis {letter}: the reverse limit {plain(low)} must lie below the forward limit {plain(high)}"
-            found.append(Finding("forward_limit", text, "error", letter))
+        found += _axis_problems(setup, letter)
     for names, field in ((setup.input_names, "input_names"), (setup.output_names, "output_names")):
         given = [name for name in names if name]
         for name in dict.fromkeys(name for name in given if given.count(name) > 1):
             found.append(Finding(field, f"The name '{name}' is used twice"))
+        found += [Finding(field, f"The name '{name}' is a number") for name in given if parse_number(name) is not None]
     return tuple(found)
+
+
+def _axis_problems(setup: Setup, letter: str) -> list[Finding]:
+    axis = setup.axis(letter)
+    found: list[Finding] = []
+    for name, field in fields_of(axis).items():
+        problem = field.problem(getattr(axis, name), Context(setup, letter)) if is_shown(axis, name) else None
+        if problem:
+            found.append(Finding(name, f"Axis {letter}: {problem}", "error", letter))
+    if not axis.is_set_up:
+        found.append(Finding("counts_per_unit", never_set_up(setup, letter), "warning", letter))
+    low, high = parse_number(axis.reverse_limit), parse_number(axis.forward_limit)
+    if low is not None and high is not None and low >= high:
+        text = f"Axis {letter}: the reverse limit {plain(low)} must lie below the forward limit {plain(high)}"
+        found.append(Finding("forward_limit", text, "error", letter))
+    return found
+
+
+def never_set_up(setup: Setup, letter: str) -> str:
+    """The sentence for a scale nobody entered."""
+    return f"Axis {letter}: the scale was never set up (1 count is taken as 1 {setup.axis(letter).symbol})"
 
 
 def setup_values(setup: Setup) -> Mapping[str, Any]:

@@ -10,7 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from codegen.document import Document
 from codegen.fields import Dimension
+from codegen.generate import generate
+from codegen.instructions import SingleAxisMove, Wait
+from codegen.program import Program, Step
 from codegen.setup import Axis, Setup, Unit, setup_problems
 
 SCALES = st.sampled_from(["1", "637", "4000", "39.37", "0.125", "1000000"])
@@ -84,6 +88,33 @@ def test_a_scale_never_set_up_is_flagged() -> None:
     assert texts == ["Axis X: the scale was never set up (1 count is taken as 1 in)"]
     assert setup_problems(Setup(model="ssc1").with_axis("X", Axis(unit=Unit.COUNT))) == ()
     assert setup_problems(one("637")) == ()
+
+
+@pytest.mark.parametrize(
+    ("scale", "message"),
+    [
+        ("12,5", "Axis X: Counts per unit: write 12.5"),
+        ("abc", "Axis X: Counts per unit must be a plain number"),
+        ("0", "Axis X: Counts per unit must lie between 0.000001 and 2147483647"),
+        ("-3", "Axis X: Counts per unit must lie between 0.000001 and 2147483647"),
+    ],
+)
+def test_a_wrong_scale_stops_every_program(scale: str, message: str) -> None:
+    """It is never taken as 1 in silence."""
+    assert [finding.message for finding in setup_problems(one(scale))] == [message]
+    listing = generate(Document(Program("P", main=(Step("s1", Wait(time="5")),)), one(scale)))
+    assert not listing.is_complete and [finding.message for finding in listing.problems] == [message]
+
+
+def test_a_program_tells_once_of_a_scale_never_set_up() -> None:
+    moves = tuple(Step(f"s{place}", SingleAxisMove(distance="100", speed="50")) for place in range(3))
+    (finding,) = generate(Document(Program("P", main=moves), Setup(model="ssc1"))).problems
+    assert (finding.step, finding.severity) == ("s0", "warning") and "never set up" in finding.message
+
+
+def test_names_are_no_numbers() -> None:
+    setup = Setup(input_names=("3", *[""] * 7)).with_axis("X", Axis(unit=Unit.COUNT))
+    assert "The name '3' is a number" in [finding.message for finding in setup_problems(setup)]
 
 
 def test_limits_the_wrong_way_round() -> None:
