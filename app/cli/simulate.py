@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import signal
+import threading
 from pathlib import Path
 
 from app.cli.failure import DONE, Failure
@@ -29,6 +31,13 @@ def tcp_address(text: str | None) -> str:
     return f"127.0.0.1:{port}" if host in ("", "localhost") else text
 
 
+def end_when_interrupted() -> None:
+    """Ctrl-C and a request to end are the same, also where whoever started us ignores Ctrl-C."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+
+
 def simulate(options: argparse.Namespace) -> int:
     """Serves until interrupted."""
     name = options.controller or DEFAULT_MODEL
@@ -43,6 +52,7 @@ def simulate(options: argparse.Namespace) -> int:
     eeprom = Eeprom(Path(options.eeprom)) if options.eeprom else None
     simulation = Simulation(model(name), plants=read_plants(options.plant), eeprom=eeprom, baud=options.baud)
     tcp = None if options.pty else tcp_address(options.tcp)
+    end_when_interrupted()
     try:
         serve(simulation, pty=options.pty, tcp=tcp)
     except KeyboardInterrupt:
