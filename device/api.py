@@ -92,7 +92,7 @@ class Controller:
         self.door = Door(self.line.address)
         self.waiting = Waiting()
         self.nonces = nonces()
-        self.poller = Poller(self.line, clock, self.nonces, self._suspended, self._read)
+        self.poller = Poller(self.line, clock, self.nonces, self.resting, self._read)
         self.memory = Memory(self)
         self.motion = Motion(self)
         self.io = Io(self)
@@ -104,7 +104,7 @@ class Controller:
         self._time: tuple[float, float] | None = None
         self._used = clock()
         self.door.control = kind is Kind.SIMULATOR
-        self.door.resting = self._suspended
+        self.door.resting = self.resting
         self._events = Events(self)
         self.link = Link(opener or _no_transport, self.line, self._events, self.door, clock)
         if opener is not None and threaded:
@@ -189,21 +189,22 @@ class Controller:
 
     # ------------------------------------------------------------------- STOP
 
-    def stop(self) -> None:
+    def stop(self, then: Callable[[bool], None] = lambda still: None) -> None:
         """Stops everything, ahead of everything; pressed again while it is not proved, it aborts."""
         if self.link.transport is None:
             self.show_stop(StopState.NO_LINK if self.state is State.OFFLINE else StopState.NOT_CONFIRMED)
+            then(False)
             return
         again = self._stopping is not None or self._stop_state is StopState.STOPPING
         self.motion.release()
         self._stopping, self._stop_pressed_at = None, self.clock()
         self.show_stop(StopState.STOPPING)
-        self.link.stop(lambda sure: self._stop_steps(sure, abort=again))
+        self.link.stop(lambda sure: self._stop_steps(sure, again, then))
 
-    def _stop_steps(self, sure: bool, *, abort: bool) -> Steps[bool]:
+    def _stop_steps(self, sure: bool, abort: bool, then: Callable[[bool], None]) -> Steps[bool]:
         model = self.model
         self._stopping = stopping = Stopping(
-            command_mode=sure and not self._suspended(),
+            command_mode=sure and not self.resting(),
             axes=self.axes or "X",
             sequence=model is not None and model.coordinated,
             threads=model.threads if model is not None else 1,
@@ -216,10 +217,12 @@ class Controller:
             abort=abort,
             heard=self._stop_pressed_at,
         )
+        still = False
         try:
             still = yield from stopping.steps()
         finally:
             self._stopping = None
+            then(still)
         if still:
             self.waiting.restarted()
             self.waiting.unfinished = False
@@ -317,14 +320,15 @@ class Controller:
 
     @property
     def polling(self) -> bool:
-        return self.state is State.READY and not self._suspended()
+        return self.state is State.READY and not self.resting()
 
     @property
     def polling_text(self) -> str:
         """Why live values rest, or how fast they come."""
-        return self._suspended() or f"{self.rate_hz:.0f} readings/s"
+        return self.resting() or f"{self.rate_hz:.0f} readings/s"
 
-    def _suspended(self) -> str:
+    def resting(self) -> str:
+        """Why live values rest now: a question waits or may come at any moment; nothing when they are read."""
         return self.waiting.question or self.waiting.imminent
 
     def _read(self, values: dict[str, float]) -> None:
@@ -403,8 +407,12 @@ class Controller:
         return self.ask(command)
 
     def halt(self) -> Future[Reply]:
-        """Ends all programs, then all motion."""
-        return self.run(commands.halt(self), Priority.USER, "user")
+        """Ends all programs, then all motion; as STOP does where a line could become an answer."""
+        if not self.resting():
+            return self.run(commands.halt(self), Priority.USER, "user")
+        halted: Future[Reply] = Future()
+        self.stop(lambda still: halted.set_result(Reply("", still, still, 0, "" if still else "Not confirmed.")))
+        return halted
 
     def set_listing(self, listing: str | None) -> None:
         """What the controller is known to hold (on the link's thread)."""

@@ -6,11 +6,11 @@ import math
 import re
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from device import commands
 from device.commands import Reply
-from device.download import Download, Downloaded, Job, recover, upload_steps
+from device.download import Download, Downloaded, DownloadFailed, Job, recover, upload_steps
 from device.happenings import NoticeKind
 from device.hold import Lease
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped
@@ -37,12 +37,16 @@ class Memory:
     def _downloading(self, download: Download) -> Steps[Downloaded]:
         c = self._c
         c.motion.release()
+        if not c.control:
+            raise NotAllowed("Not downloaded: this is Watch. Take Control first.")
+        if c.resting() and not c.waiting.unfinished:
+            raise DownloadFailed("Not downloaded: a program is running. Halt it first.")
         try:
             done = yield from download.steps()
         except LinkError as reason:
             if download.touched:
                 c.set_listing(None)
-            if download.unfinished and not isinstance(reason.__cause__, Stopped):
+            if download.unfinished and not isinstance(reason.__cause__, Stopped) and not isinstance(reason, NotAllowed):
                 c.waiting.unfinished = True
                 c.link.submit(recover(c.waiting, c.nonces), Priority.USER, "download")
             c.notify(NoticeKind.DOWNLOAD, str(reason))
@@ -57,6 +61,8 @@ class Memory:
         return job
 
     def _uploading(self, job: Job[str]) -> Steps[str]:
+        if self._c.resting():
+            raise NotAllowed(f"Not read: {self._c.resting()}")
         text = yield from upload_steps(self._c.nonces, job)
         self._c.set_listing(text)
         return text
@@ -99,6 +105,8 @@ class Motion:
         self.release()
         c = self._c
         c._used = c.clock()
+        if c.resting():
+            return refused(f"Not moved: {c.resting()}")
         speed = math.trunc(speed_counts_s)
         lease = Lease(axis, speed, math.trunc(acceleration), math.trunc(deceleration), c.clock, c.nonces)
         lease.renew()
@@ -124,7 +132,12 @@ class Io:
     def set_output(self, number: int, on: bool) -> Future[Reply]:
         """Switches one output; needs Control and I/O control."""
         if not self._c.io_control:
-            future: Future[Reply] = Future()
-            future.set_exception(NotAllowed("Not sent: switch I/O control on to set outputs by hand."))
-            return future
+            return refused("Not sent: switch I/O control on to set outputs by hand.")
         return self._c.ask(f"{'SB' if on else 'CB'} {number}")
+
+
+def refused(sentence: str) -> Future[Any]:
+    """A future that has already failed, with the sentence that says why."""
+    future: Future[Any] = Future()
+    future.set_exception(NotAllowed(sentence))
+    return future

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from device.api import NotAllowed, NoticeKind
+from device.api import LinkError, NotAllowed, NoticeKind
 from device.asking import Listing
 from device.live import columns
 from tests.device.bench import Bench
@@ -69,6 +69,28 @@ def test_while_a_question_waits_values_go_stale_and_commands_are_refused() -> No
     with pytest.raises(NotAllowed, match="waits for an answer"):
         bench.result(controller.ask("SP 1000"))
     assert any(notice.kind is NoticeKind.PROMPT for notice in controller.notices())
+
+
+def test_while_a_program_may_ask_nothing_is_moved_read_or_downloaded_by_hand() -> None:
+    bench = asking()
+    controller = bench.controller
+    with pytest.raises(LinkError, match=r"may ask|waits for"):
+        bench.result(controller.motion.hold("X", 1000, 100_000, 100_000))
+    with pytest.raises(LinkError, match="program is running"):
+        bench.result(controller.download("#A\nEN").future)
+    with pytest.raises(LinkError, match=r"may ask|waits for"):
+        bench.result(controller.upload().future)
+    with pytest.raises(LinkError, match=r"may ask|waits for"):
+        bench.result(controller.read("_KPX"))
+    assert bench.simulation.state()["errors"] == []
+
+
+def test_halting_a_program_that_asks_answers_nothing_for_good() -> None:
+    bench = asking()
+    bench.run_until(lambda: bench.controller.pending_prompt is not None)
+    assert bench.result(bench.controller.halt()).accepted
+    assert bench.still()
+    assert bench.controller.pending_prompt is None
 
 
 def test_reading_goes_on_after_stop() -> None:
