@@ -12,7 +12,7 @@ from tests.long import count
 
 LINES = count(3_000, 1_000_000)
 CHUNK = 500
-SLOW = frozenset({"RS", "BN", "BV", "BP", "TM"})
+SLOW = frozenset({"RS", "BN", "BV", "BP"})
 # A trippoint typed at the port holds the port until it is over, AI or AM of a jog for ever (dmc-1412-1414.txt l.988).
 NAMES = [name for name, row in COMMANDS.items() if name.isalpha() and name not in SLOW and not row.trippoint]
 ARGUMENTS = [
