@@ -101,6 +101,8 @@ class Controller:
         self.simulator = own
         self._notices: deque[Notice] = deque(maxlen=2000)
         self._document: str | None = None
+        self._document_lines: list[str] = []
+        self._listing_lines: list[str] = []
         self._time: tuple[float, float] | None = None
         self._used = clock()
         self.door.control = kind is Kind.SIMULATOR
@@ -379,7 +381,8 @@ class Controller:
 
     def show_listing(self, text: str) -> None:
         """The code of the document now; the badge compares it with what the controller holds."""
-        self._document = text
+        if text != self._document:
+            self._document, self._document_lines = text, program_lines(text)
 
     @property
     def program_badge(self) -> Badge:
@@ -387,7 +390,7 @@ class Controller:
             return Badge.UNKNOWN
         if self._document is None:
             return Badge.CHANGED
-        return Badge.SAME if program_lines(self._document) == program_lines(self.listing) else Badge.CHANGED
+        return Badge.SAME if self._document_lines == self._listing_lines else Badge.CHANGED
 
     def execute(self, label: str | None = None, thread: int = 0, anyway: bool = False) -> Future[Reply]:
         """Starts the verified program at a label; `anyway` runs what is in the controller."""
@@ -416,6 +419,7 @@ class Controller:
 
     def set_listing(self, listing: str | None) -> None:
         """What the controller is known to hold (on the link's thread)."""
+        self._listing_lines = program_lines(listing or "")
         self.listing = listing
         self.waiting.listing = Listing(listing) if listing is not None else None
 
