@@ -113,3 +113,21 @@ def test_unusable_options_are_one_sentence(options: list[str]) -> None:
     assert result.returncode == 2
     assert result.stderr.startswith("twoletter: ")
     assert result.stderr.count("\n") == 1
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processor time is read from /proc")
+def test_an_idle_controller_costs_little() -> None:
+    import os
+
+    def used(pid: int) -> float:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    with SimulatorProcess("ssc4") as simulator:
+        client = connect(simulator.address)
+        client.sendall(b"\r")
+        until(client, b":")
+        before, began = used(simulator.pid), time.monotonic()
+        client.sendall(b"WT 3072\r")  # three seconds
+        until(client, b":")
+        assert (used(simulator.pid) - before) / (time.monotonic() - began) < 0.05
