@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen import files
+from codegen.compiled import _compiled
 from codegen.document import Document
-from codegen.generate import Listing, _compiled, generate
+from codegen.generate import Listing, generate
 from codegen.instructions import (
     AutoExecution,
     Comment,
