@@ -248,7 +248,10 @@ class Unit:
 
     def master_reset(self) -> None:
         """^R^S: factory state, EEPROM erased."""
-        self.eeprom.erase()
+        try:
+            self.eeprom.erase()
+        except OSError as reason:
+            self.notice(f"the EEPROM file can not be written: {reason.strerror or reason}")
         reset.begin(self)
 
     def open_port_two(self) -> None:

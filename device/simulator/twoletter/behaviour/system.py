@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from device.simulator.twoletter import burned
 from device.simulator.twoletter.state import CommandError, Port, Strand, Wait
@@ -12,27 +12,37 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
 PROGRAM_RUNS: Final = 17
+WRITE_ERROR: Final = 15
 
 
 def burn_parameters(unit: Unit, strand: Strand, call: Call) -> None:
     """BN: the parameters, about 250 ms (SSC manual l.1941)."""
     _not_while_running(unit, strand)
-    unit.eeprom.burn(parameters=burned.parameters(unit))
+    _burn(unit, parameters=burned.parameters(unit))
     _busy(unit, strand, unit.profile.burn_parameters_ms)
 
 
 def burn_program(unit: Unit, strand: Strand, call: Call) -> None:
     """BP: the program, for power-up (dmc-1412-1414.txt l.2969)."""
     _not_while_running(unit, strand)
-    unit.eeprom.burn(program=list(unit.state.program))
+    _burn(unit, program=list(unit.state.program))
     _busy(unit, strand, unit.profile.burn_program_ms)
 
 
 def burn_variables(unit: Unit, strand: Strand, call: Call) -> None:
     """BV: variables and arrays (dmc-1412-1414.txt l.3213)."""
     state = unit.state
-    unit.eeprom.burn(variables={"values": dict(state.variables), "strings": sorted(state.strings)}, arrays=state.arrays)
+    _burn(unit, variables={"values": dict(state.variables), "strings": sorted(state.strings)}, arrays=state.arrays)
     _busy(unit, strand, unit.profile.burn_variables_ms)
+
+
+def _burn(unit: Unit, **parts: Any) -> None:
+    """Error 15 when the EEPROM's file can not be written."""
+    try:
+        unit.eeprom.burn(**parts)
+    except OSError as reason:
+        unit.notice(f"the EEPROM file can not be written: {reason.strerror or reason}")
+        raise CommandError(WRITE_ERROR) from reason
 
 
 def _not_while_running(unit: Unit, strand: Strand) -> None:
