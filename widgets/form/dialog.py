@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from codegen.instructions import Instruction
+from codegen.instructions import Group, Instruction
 from widgets.form.editors import Buttons
 from widgets.form.form import InstructionForm
 from widgets.form.offers import Offers
@@ -41,7 +41,14 @@ class InstructionDialog(QDialog):
     help_requested = Signal(str)
 
     def __init__(
-        self, instruction: Instruction, offers: Offers, *, new: bool, where: str = "", parent: QWidget | None = None
+        self,
+        instruction: Instruction,
+        offers: Offers,
+        *,
+        new: bool,
+        where: str = "",
+        section: str = "",
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.new = new
@@ -51,7 +58,7 @@ class InstructionDialog(QDialog):
         self.setProperty("helpPage", instruction.title)
         self.form = InstructionForm(offers)
         self.section = SectionButtons()
-        self.section.choose(["main"])
+        self.section.choose([section or usual_section(instruction)])
         self.buttons = self._buttons()
         self._lay_out(instruction, where)
         self.form.edited.connect(lambda _: self._refresh())
@@ -172,6 +179,11 @@ class InstructionDialog(QDialog):
             self.form.fields.focus_first()
         else:
             self.accept()
+
+
+def usual_section(instruction: Instruction) -> str:
+    """Where an instruction for either section mostly stands: gains and limits are set before anything moves."""
+    return "configuration" if instruction.group in (Group.SERVO, Group.LIMITS) else "main"
 
 
 def _first_sentence(text: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QValidator
 from PySide6.QtWidgets import (
     QButtonGroup,
     QCheckBox,
@@ -384,9 +384,18 @@ def channels(names: Sequence[str], count: int) -> list[str]:
     return [names[number] if number < len(names) and names[number] else str(number + 1) for number in range(count)]
 
 
+class Capitals(QValidator):
+    """Turns what is typed into capitals."""
+
+    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
+        return QValidator.State.Acceptable, text.upper(), position
+
+
 def label_name(field: fields.LabelName, offers: Offers) -> QWidget:
-    """A new label is typed; one to go to is picked from those of the program."""
-    return LineEditor(field, offers) if field.defines else NameEditor(offers.labels)
+    """A new label is typed; one to go to is picked from those of the program; both in capitals."""
+    editor = LineEditor(field, offers) if field.defines else NameEditor(offers.labels)
+    editor.setValidator(Capitals(editor))
+    return editor
 
 
 EDITORS: dict[type[fields.Field], Any] = {

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from codegen import read
 from codegen.generate import code, compiled
 from codegen.instructions import Instruction
+from widgets.form.cell import focus_in
+from widgets.form.command_list import CommandList
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
 from widgets.form.pictures import PICTURES
 from widgets.form.preview import Preview
+
+HIGHEST, WIDEST = 460, 860  # pixels a dialog may ask for its fields: fits 1280 x 800
+SPARE = 24  # one line of text
 
 
 class InstructionForm(QWidget):
@@ -88,15 +94,33 @@ class InstructionForm(QWidget):
             self.picture.deleteLater()
             self.picture = None
         make = PICTURES.get(type(instruction).__name__)
-        if make is not None:
+        if make is not None and self.grows:
             self.picture = make(self.offers)
+            if isinstance(self.picture, CommandList):
+                self.picture.picked.connect(self._put_in)
             self._beside.addWidget(self.picture, 1)
 
+    def _put_in(self, text: str) -> None:
+        """A picked command becomes the next line of the code."""
+        editor = self.fields.cells["text", ""].editor
+        before = editor.value()
+        editor.setValue(f"{before}\n{text}" if before.strip() else text)
+        editor.changed.emit(editor.value())
+        focus_in(editor)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Only once it is styled is it known how high the fields are."""
+        super().showEvent(event)
+        self._fit()
+
     def _fit(self) -> None:
-        """High enough to show all fields without scrolling, as far as the screen allows."""
+        """High enough to show all fields, and one more problem, without scrolling; as far as the screen allows."""
         if not self.grows:
             return
-        self._inside.adjustSize()
+        self._inside.ensurePolished()
+        layout = self._inside.layout()
+        if layout is not None:
+            layout.activate()
         wanted = self._inside.sizeHint()
-        self.scroll.setMinimumHeight(min(wanted.height() + 8, 460))
-        self.scroll.setMinimumWidth(min(wanted.width() + 24, 860))
+        self.scroll.setMinimumHeight(min(wanted.height() + SPARE, HIGHEST))
+        self.scroll.setMinimumWidth(min(wanted.width() + 24, WIDEST))

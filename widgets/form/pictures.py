@@ -1,4 +1,4 @@
-"""Live pictures for forms that describe geometry, by the name of the instruction; most have none."""
+"""What stands beside a form: a live picture or a list to pick from, by the name of the instruction; most have none."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from PySide6.QtWidgets import QWidget
 
+from widgets.form.command_list import CommandList
 from widgets.form.offers import Offers
 
-PICTURES: Mapping[str, Callable[[Offers], QWidget]] = {}
+PICTURES: Mapping[str, Callable[[Offers], QWidget]] = {"TwoLetterCode": CommandList}

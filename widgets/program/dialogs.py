@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from codegen.instructions import Instruction
-from codegen.program import Place, Section, find
+from codegen.program import Place, Section, find, section_of
 from widgets.form.dialog import InstructionDialog
 from widgets.form.offers import Offers, offers_of
 from widgets.program.node import TITLES
@@ -32,7 +32,7 @@ class Dialogs(QObject):
         self, kind: type[Instruction], *, before: str | None = None, place: Place | None = None
     ) -> InstructionDialog:
         """The dialog of a new step."""
-        dialog = self._show(kind(), new=True, where=self._where(kind, before, place))
+        dialog = self._show(kind(), new=True, where=self._where(kind, before, place), section=self._section(before))
         dialog.added.connect(lambda instruction, section, stay: self._added(instruction, section, before, place))
         return dialog
 
@@ -61,10 +61,10 @@ class Dialogs(QObject):
 
     # ---- inside
 
-    def _show(self, instruction: Instruction, *, new: bool, where: str) -> InstructionDialog:
-        dialog = InstructionDialog(
-            instruction, offers_of(self.session.document), new=new, where=where, parent=self.view.window()
-        )
+    def _show(self, instruction: Instruction, *, new: bool, where: str, section: str = "") -> InstructionDialog:
+        offers = offers_of(self.session.document)
+        window = self.view.window()
+        dialog = InstructionDialog(instruction, offers, new=new, where=where, section=section, parent=window)
         self.open.append(dialog)
         dialog.finished.connect(lambda _: self.open.remove(dialog))
         dialog.help_requested.connect(self.help_requested)
@@ -85,6 +85,14 @@ class Dialogs(QObject):
     def _changed(self, step_id: str, instruction: Instruction) -> None:
         self.session.replace(step_id, instruction)
         self.said.emit(f"Changed: {instruction.title}")
+
+    def _section(self, before: str | None) -> str:
+        """Configuration, when the step to insert before stands there; else what is usual."""
+        ahead = before or self.session.before
+        if ahead is None:
+            return ""
+        inside = section_of(self.session.document.program, ahead)
+        return "configuration" if inside is Section.CONFIGURATION else "main"
 
     def _where(self, kind: type[Instruction], before: str | None, place: Place | None) -> str:
         if before or self.session.before:

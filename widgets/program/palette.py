@@ -14,6 +14,8 @@ from codegen.setup import Setup
 from widgets.parts.look import look
 from widgets.program.model import NEW_MIME
 
+MODES = QIcon.Mode
+STRENGTHS = ((MODES.Normal, 255), (MODES.Active, 255), (MODES.Selected, 255), (MODES.Disabled, 90))
 KIND = Qt.ItemDataRole.UserRole
 DOT = 10
 HINT = "Enter or a double click opens the dialog; or drag an instruction into the program."
@@ -211,7 +213,7 @@ def _rank(kind: type[Instruction], words: Sequence[str]) -> int | None:
 
 def _dot(colour: QColor) -> QIcon:
     icon = QIcon()
-    for mode, strength in ((QIcon.Mode.Normal, 255), (QIcon.Mode.Disabled, 90)):
+    for mode, strength in STRENGTHS:
         picture = QPixmap(DOT * 2, DOT * 2)
         picture.setDevicePixelRatio(2)
         picture.fill(Qt.GlobalColor.transparent)

@@ -340,6 +340,8 @@ class ProgramView(QWidget):
         if self._showing:
             return
         self._show_selection(scroll=not self._stepping)
+        current = self.tree.current()
+        self.tree.setProperty("helpPage", self.step(current).instruction.title if current else "Program window")
         self.refresh_commands()
         self.selection_changed.emit()
 

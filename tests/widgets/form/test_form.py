@@ -8,12 +8,25 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from codegen.instructions import AccelDecel, Instruction, MathematicalEquation, SingleAxisMove, Wait
+from codegen.instructions import (
+    AccelDecel,
+    Instruction,
+    Jump,
+    Label,
+    MathematicalEquation,
+    PidGains,
+    SingleAxisMove,
+    TwoLetterCode,
+    Wait,
+)
 from codegen.instructions.math import Equation
 from codegen.program import Step
+from codegen.twoletter.commands import COMMANDS
 from tests.widgets.form.samples import offers
+from widgets.form.command_list import CommandList
 from widgets.form.dialog import InstructionDialog
 from widgets.form.fields_form import FieldsForm
+from widgets.form.form import InstructionForm
 from widgets.form.inspector import Inspector
 
 
@@ -167,3 +180,33 @@ def test_without_a_step_the_inspector_says_what_to_do(qtbot: QtBot) -> None:
     inspector.show_nothing()
     assert inspector.stack.currentWidget() is inspector.empty
     assert "Select" in inspector.empty.text()
+
+
+def test_labels_are_typed_in_capitals(qtbot: QtBot) -> None:
+    form = FieldsForm(offers())
+    qtbot.addWidget(form)
+    form.show_item(Label())
+    qtbot.keyClicks(form.cells["name", ""].editor, "feed1")
+    assert form.item == Label(name="FEED1")
+    form.show_item(Jump())
+    qtbot.keyClicks(form.cells["target", ""].editor, "feed1")
+    assert form.item.target == "FEED1"
+
+
+def test_a_picked_command_becomes_the_next_line_of_the_code(qtbot: QtBot) -> None:
+    form = InstructionForm(offers())
+    qtbot.addWidget(form)
+    form.show_instruction(TwoLetterCode(text="SH X"))
+    picture = form.picture
+    assert isinstance(picture, CommandList)
+    qtbot.keyClicks(picture.search, "sp")
+    assert picture.list.currentItem().text().startswith("SP ")
+    picture.list.itemActivated.emit(picture.list.currentItem())
+    assert form.instruction == TwoLetterCode(text=f"SH X\n{COMMANDS['SP'].example}")
+    assert COMMANDS["SP"].help in picture.about.text()
+
+
+def test_gains_go_to_the_configuration_unless_told_otherwise(qtbot: QtBot) -> None:
+    dialog = InstructionDialog(PidGains(), offers(), new=True)
+    qtbot.addWidget(dialog)
+    assert dialog.section.chosen() == ["configuration"]
