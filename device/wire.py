@@ -279,6 +279,8 @@ class Wire:
         return None
 
     def _upload(self) -> Answer | None:
+        if len(self._buffer) > 1 and 0x1A not in self._buffer:
+            return None  # a long listing is looked at once, at its end
         window = self._window(len(self._buffer))
         match = re.search("\x1a(?:\r\n)?:", window)
         if match is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from itertools import pairwise
 
 from hypothesis import given
@@ -198,3 +199,19 @@ def test_silence_and_uncertainty_are_told_apart() -> None:
 def test_marks_repeat_only_after_1296() -> None:
     marks = nonces()
     assert len({next(marks) for _ in range(1296)}) == 1296
+
+
+def test_a_long_upload_in_small_pieces_takes_little_time() -> None:
+    """1000 lines of 80 characters, four bytes at a time, as they come at 19200 baud."""
+    listing = "".join(f"NO {n:070d}\r\n" for n in range(1000))
+    wire = Wire()
+    wire.expect(Upload())
+    stream = listing.encode() + b"\x1a\r\n:"
+    start = time.process_time()
+    answers = []
+    for place in range(0, len(stream), 4):
+        wire.feed(stream[place : place + 4])
+        answers.append(wire.answer())
+    assert time.process_time() - start < 2.0
+    assert answers[-1] is not None
+    assert answers[-1].text == listing
