@@ -86,12 +86,14 @@ class FakeIo:
 class FakeController:
     """As much of `device.api.Controller` as the windows use; `calls` keeps what was asked."""
 
+    starts_in_control = False
+
     def __init__(self, kind: Kind = Kind.OFFLINE, model: str = "ssc2") -> None:
         self.kind = kind
         offline = kind is Kind.OFFLINE
         self.state = State.OFFLINE if offline else State.READY
         self.state_text = "Offline" if offline else "Connected: SSC"
-        self.control = kind is Kind.SIMULATOR
+        self.control = kind is Kind.SIMULATOR or self.starts_in_control
         self.io_control = False
         self.model: Model | None = None if offline else MODELS[model]
         self.axes = "" if offline else MODELS[model].axes

@@ -144,6 +144,8 @@ def _dialogs(stage: object) -> Iterator[tuple[str, object]]:
     yield "crash", CrashDialog("Python 3.11 on Linux\n\nTraceback …\nValueError: example", Path("crash.txt"))
     studio.window.docks["Display"].setFloating(True)
     yield "display-floating", studio.window.docks["Display"]
+    studio.window.docks["Display"].setFloating(False)
+    studio.desk.arrange("Program")
 
 
 if __name__ == "__main__":
