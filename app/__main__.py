@@ -7,6 +7,25 @@ import sys
 from collections.abc import Sequence
 
 
+def done(arguments: list[str], is_call: bool) -> int:
+    """Does one call, or opens the studio."""
+    if is_call:
+        from app.cli.calls import call
+
+        return call(arguments)
+    from app.cli.studio import open_studio
+
+    return open_studio(arguments)
+
+
+def let_go_of_output() -> None:
+    """Standard output can not be written any more; what is left in its buffer is dropped, also at exit."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (OSError, ValueError):
+        return
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Does one call and returns its exit code; errors are one line on standard error."""
     from app.cli.failure import DONE, UNUSABLE, Failure
@@ -14,20 +33,19 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
-        if any(word in CALLS for word in arguments[:1]):
-            from app.cli.calls import call
-
-            return call(arguments)
-        from app.cli.studio import open_studio
-
-        return open_studio(arguments)
+        code = done(arguments, bool(arguments) and arguments[0] in CALLS)
+        sys.stdout.flush()
+        return code
     except Failure as failure:
         print(f"twoletter: {failure}", file=sys.stderr)
         return failure.code
     except BrokenPipeError:
-        # Whoever read our output has closed it; nothing is left to say, also not at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        let_go_of_output()
         return DONE
+    except OSError as problem:
+        let_go_of_output()
+        print(f"twoletter: {(problem.strerror or str(problem)).lower()}", file=sys.stderr)
+        return UNUSABLE
     except KeyboardInterrupt:
         return UNUSABLE
     except SystemExit as ended:

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from app.cli.failure import DONE, NO, Failure
-from app.cli.sources import errors_of, fitted, is_program, of_two_letters, read_document, write_text
+from app.cli.sources import errors_of, fitted, is_program, of_two_letters, read_document, readable, target, write_text
 from codegen.generate import Listing, generate
 
 
@@ -20,10 +20,13 @@ def source_map(listing: Listing) -> str:
 
 
 def compile(options: argparse.Namespace) -> int:
-    """Writes the source of a program; 1 when a step has a problem, which is then named."""
+    """Writes the source of a program; with a problem in a step nothing is written, and it is named: 1."""
     path = Path(options.file)
+    readable(path)
     if not is_program(path):
         raise Failure(f"{path}: not a program (.tlp)")
+    output = target(options.output, path) if options.output else None
+    where = target(options.map, path) if options.map else None
     document = read_document(path)
     of_two_letters(document.setup.model, path)
     if options.controller:
@@ -31,14 +34,17 @@ def compile(options: argparse.Namespace) -> int:
     if options.compact:
         document = dataclasses.replace(document, compact=True)
     listing = generate(document)
-    errors = errors_of(listing)
-    for message in errors:
-        print(f"twoletter: {path}: {message}", file=sys.stderr)
-    if options.map:
-        write_text(Path(options.map), source_map(listing))
+    if wrong_setup := [each.message for each in listing.problems if each.severity == "error" and not each.step]:
+        raise Failure(f"{path}: {wrong_setup[0]}")
+    if errors := errors_of(listing):
+        for message in errors:
+            print(f"twoletter: {path}: {message}", file=sys.stderr)
+        return NO
+    if where:
+        write_text(where, source_map(listing))
     text = listing.text if listing.text.endswith("\n") else listing.text + "\n"
-    if options.output:
-        write_text(Path(options.output), text)
+    if output:
+        write_text(output, text)
     else:
         sys.stdout.write(text)
-    return NO if errors else DONE
+    return DONE

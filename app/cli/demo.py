@@ -12,7 +12,7 @@ from app.cli.failure import DONE, NO
 from app.cli.picture import Panel, draw
 from app.cli.report import final_state
 from app.cli.run import Run, loaded_simulation
-from app.cli.sources import Loaded, write_text
+from app.cli.sources import Loaded, target, write_text
 from app.cli.stimulus import read_stimulus
 from app.cli.trace import Columns, Trace
 from codegen.document import Document
@@ -109,12 +109,13 @@ def performed(loaded: Loaded, stimulus: str) -> tuple[Columns, dict[str, Any], f
     trace = Trace(simulation, loaded.model.threads, loaded.model.axes)
     trace.start()
     start = simulation.ticks
-    Run(simulation, SECONDS, read_stimulus(stimulus, "stimulus"), trace).go()
+    Run(simulation, SECONDS, read_stimulus(stimulus, "stimulus", loaded.model), trace).go()
     return trace.columns(), simulation.state(), (simulation.ticks - start) / TICKS
 
 
 def demo(options: argparse.Namespace) -> int:
     """Shows the whole way from program to motion."""
+    picture_path = target(options.picture, ending=".svg")
     path = Path(resource(EXAMPLE))
     document = load(path)
     listing = generate(document)
@@ -126,7 +127,6 @@ def demo(options: argparse.Namespace) -> int:
     said = [f"{ms:10.1f} ms  port {port}  {text}" for ms, port, text in state["messages"]]
     section("Timeline", sorted(events(columns) + said))
     section(f"Final state after {seconds:.1f} s", list(final_state(state, loaded)))
-    target = Path(options.picture)
-    write_text(target, picture(columns, document))
-    print(f"picture of the motion: {target}")
+    write_text(picture_path, picture(columns, document))
+    print(f"picture of the motion: {picture_path}")
     return NO if state["errors"] else DONE

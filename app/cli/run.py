@@ -14,7 +14,7 @@ from typing import Any
 from app.cli.failure import DONE, NO, Failure
 from app.cli.limits import apply_limits
 from app.cli.report import report
-from app.cli.sources import Loaded, complete, load_any, read_text
+from app.cli.sources import Loaded, complete, load_any, read_text, target
 from app.cli.stimulus import Happening, read_stimulus
 from app.cli.trace import Columns, Trace, check_ending, write_trace
 from codegen.models import Model
@@ -26,6 +26,7 @@ from device.simulator.twoletter.memory import DownloadRefused
 from device.simulator.twoletter.state import CommandError
 
 SLICE_S = 0.02
+LONGEST_S = 1e6
 STATE_KEYS = (
     "messages",
     "errors",
@@ -182,15 +183,17 @@ def perform(
 
 def run(options: argparse.Namespace) -> int:
     """Runs a file and reports; 1 when the program ended with an error."""
-    if options.time <= 0 or options.every < 1:
-        raise Failure("--time and --every must be greater than 0")
+    if not 0 < options.time <= LONGEST_S or options.every < 1:
+        raise Failure(f"--time must be between 0 and {LONGEST_S:g} seconds, --every at least 1")
+    path = Path(options.file)
     if options.trace:
-        check_ending(Path(options.trace))
-    loaded = load_any(Path(options.file), options.controller, options.setup)
-    complete(loaded)
+        read = [Path(each) for each in (options.setup, options.plant, options.stimulus) if each]
+        check_ending(target(options.trace, path, *read))
+    loaded = load_any(path, options.controller, options.setup)
+    complete(path, loaded.listing)
     name = options.stimulus or str(loaded.path)
     text = read_text(Path(options.stimulus)) if options.stimulus else loaded.stimulus
-    happenings = read_stimulus(text, name) if text.strip() else []
+    happenings = read_stimulus(text, name, loaded.model) if text.strip() else []
     outcome = perform(loaded, options, happenings, None if options.json else print)
     for notice in outcome.state.get("notices", ()):
         print(f"twoletter: {notice}", file=sys.stderr)

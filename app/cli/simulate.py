@@ -9,9 +9,9 @@ from pathlib import Path
 
 from app.cli.failure import DONE, Failure
 from app.cli.run import read_plants
-from app.cli.sources import DEFAULT_MODEL
+from app.cli.sources import DEFAULT_MODEL, said_of
 from codegen.models import model
-from device.simulator.eeprom import Eeprom
+from device.simulator.eeprom import Eeprom, EepromUnreadable
 from device.simulator.server import serve
 from device.simulator.simulation import Simulation
 
@@ -38,6 +38,16 @@ def end_when_interrupted() -> None:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
+def read_eeprom(path: str | None) -> Eeprom | None:
+    """The file that keeps what is burned, where one is given."""
+    if path is None:
+        return None
+    try:
+        return Eeprom(Path(path))
+    except (EepromUnreadable, OSError) as problem:
+        raise said_of(Path(path), problem) from problem
+
+
 def simulate(options: argparse.Namespace) -> int:
     """Serves until interrupted."""
     name = options.controller or DEFAULT_MODEL
@@ -49,7 +59,7 @@ def simulate(options: argparse.Namespace) -> int:
         raise Failure("--pty and --tcp exclude each other")
     if options.baud is not None and options.baud < 1:
         raise Failure("--baud must be greater than 0")
-    eeprom = Eeprom(Path(options.eeprom)) if options.eeprom else None
+    eeprom = read_eeprom(options.eeprom)
     simulation = Simulation(model(name), plants=read_plants(options.plant), eeprom=eeprom, baud=options.baud)
     tcp = None if options.pty else tcp_address(options.tcp)
     end_when_interrupted()

@@ -15,6 +15,7 @@ from codegen.read import cannot
 from codegen.setup import Setup
 
 DEFAULT_MODEL = "ssc4"
+PRECIOUS = (".tlp", ".tls")
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,7 @@ def sentence(problem: OSError) -> str:
 
 def read_text(path: Path) -> str:
     """A text file, whatever its encoding."""
+    readable(path)
     try:
         data = path.read_bytes()
     except OSError as problem:
@@ -49,6 +51,30 @@ def read_text(path: Path) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
         return data.decode("latin-1")
+
+
+def readable(path: Path) -> None:
+    """Refuses what is no file at all, before anything else is said about it."""
+    if not path.exists():
+        raise Failure(f"{path}: no such file")
+    if path.is_dir():
+        raise Failure(f"{path}: is a folder")
+
+
+def target(text: str, *inputs: Path, ending: str = "") -> Path:
+    """Where something is written: never onto a file that is read, nor onto a program or setup."""
+    path = Path(text)
+    if any(path.exists() and each.exists() and path.samefile(each) for each in inputs):
+        raise Failure(f"{path}: is the file that is read; choose another name")
+    if path.suffix.lower() in PRECIOUS:
+        raise Failure(f"{path}: a program or setup is not overwritten; choose another name")
+    if ending and path.suffix.lower() != ending:
+        raise Failure(f"{path}: its name must end in {ending}")
+    if path.is_dir():
+        raise Failure(f"{path}: is a folder")
+    if not path.parent.is_dir():
+        raise Failure(f"{path}: there is no folder {path.parent}")
+    return path
 
 
 def write_text(path: Path, text: str, force: bool = True) -> None:
@@ -61,6 +87,14 @@ def write_text(path: Path, text: str, force: bool = True) -> None:
         raise Failure(f"{path}: {sentence(problem)}") from problem
 
 
+def said_of(path: Path, problem: Exception) -> Failure:
+    """A complaint about a file, with the file's name in front."""
+    text = str(problem)
+    for name in (str(path), path.name):
+        text = text.removeprefix(f"{name}: ").removeprefix(f"{name} ")
+    return Failure(f"{path}: {text}")
+
+
 def is_program(path: Path) -> bool:
     """Whether a file is a visual program."""
     return path.suffix.lower() == ".tlp"
@@ -68,22 +102,25 @@ def is_program(path: Path) -> bool:
 
 def read_document(path: Path) -> Document:
     """A visual program."""
+    readable(path)
     try:
         return load(path)
     except FileUnreadable as problem:
-        raise Failure(str(problem) if path.name in str(problem) else f"{path}: {problem}") from problem
+        raise said_of(path, problem) from problem
     except OSError as problem:
         raise Failure(f"{path}: {sentence(problem)}") from problem
 
 
-def read_setup(path: str | None) -> Setup | None:
+def read_setup(text: str | None) -> Setup | None:
     """A machine setup, where one is given."""
-    if path is None:
+    if text is None:
         return None
+    path = Path(text)
+    readable(path)
     try:
-        return load_setup(Path(path))
+        return load_setup(path)
     except FileUnreadable as problem:
-        raise Failure(str(problem)) from problem
+        raise said_of(path, problem) from problem
     except OSError as problem:
         raise Failure(f"{path}: {sentence(problem)}") from problem
 
@@ -108,11 +145,19 @@ def fitted(document: Document, setup: Setup | None, controller: str | None, path
     return fitting
 
 
-def complete(loaded: Loaded) -> None:
-    """Refuses a program in which a step could not become code; what the checker finds is no reason."""
-    for line in loaded.listing.lines if loaded.listing else ():
+def complete(path: Path, listing: Listing | None) -> None:
+    """Refuses a program whose setup is wrong or in which a step could not become code.
+
+    What the checker finds is no reason: the controller finds it too, when it comes to it.
+    """
+    if listing is None:
+        return
+    for finding in listing.problems:
+        if finding.severity == "error" and not finding.step:
+            raise Failure(f"{path}: {finding.message}")
+    for line in listing.lines:
         if line.problem:
-            raise Failure(f"{loaded.path}: a step is not finished: {line.problem}")
+            raise Failure(f"{path}: a step is not finished: {line.problem}")
 
 
 def of_two_letters(name: str, path: Path) -> Model:

@@ -10,7 +10,7 @@ from typing import Any
 
 from app.cli.failure import DONE, NO, Failure
 from app.cli.line import TICK_S, connected, is_machine, result_of
-from app.cli.sources import errors_of, load_any, write_text
+from app.cli.sources import complete, errors_of, load_any, target, write_text
 from device.api import Job
 
 
@@ -37,6 +37,7 @@ def download(options: argparse.Namespace) -> int:
     """Sends a program and reads it back; 1 when it could not be verified."""
     path = Path(options.file)
     loaded = load_any(path)
+    complete(path, loaded.listing)
     if loaded.listing and (errors := errors_of(loaded.listing)):
         raise Failure(f"{path}: {errors[0]}")
     with connected(options) as controller:
@@ -49,14 +50,15 @@ def download(options: argparse.Namespace) -> int:
 
 def upload(options: argparse.Namespace) -> int:
     """Reads the program of a controller."""
-    if options.output and Path(options.output).exists() and not options.force:
-        raise Failure(f"{options.output} exists already (--force overwrites it)")
+    output = target(options.output) if options.output else None
+    if output and output.exists() and not options.force:
+        raise Failure(f"{output} exists already (--force overwrites it)")
     with connected(options) as controller:
         text: str = waited(controller.upload(), options.port)
     text = text if not text or text.endswith("\n") else text + "\n"
-    if options.output:
-        write_text(Path(options.output), text)
-        print(f"{options.output}: {len(text.splitlines())} lines")
+    if output:
+        write_text(output, text)
+        print(f"{output}: {len(text.splitlines())} lines")
     else:
         sys.stdout.write(text)
     return DONE

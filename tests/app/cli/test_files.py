@@ -74,6 +74,25 @@ def test_compile_into_a_file_with_a_map(tmp_path: Path, capsys: Said) -> None:
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.parametrize("option", ["-o", "--map"])
+def test_compile_never_writes_onto_a_program(option: str, tmp_path: Path, capsys: Said) -> None:
+    own, other = tmp_path / "own.tlp", tmp_path / "other.tlp"
+    own.write_text(Path(CUTTER).read_text())
+    linked = tmp_path / "linked.dmc"
+    linked.symlink_to(own)
+    for place in (own, other, linked):
+        assert main(["compile", str(own), option, str(place)]) == 2
+        assert "choose another name" in one_line_error(capsys)
+    assert own.read_text() == Path(CUTTER).read_text() and not other.exists()
+
+
+def test_compile_writes_nothing_while_a_step_is_wrong(write: Write, tmp_path: Path, capsys: Said) -> None:
+    out = tmp_path / "o.dmc"
+    path = write("w.tlp", Path(CUTTER).read_text().replace('"time": "20"', '"time": ""'))
+    assert main(["compile", path, "-o", str(out)]) == 1
+    assert "missing" in one_line_error(capsys) and not out.exists()
+
+
 def test_compile_compact_joins_lines(capsys: Said) -> None:
     assert main(["compile", CUTTER, "--compact"]) == 0
     text = capsys.readouterr().out

@@ -61,6 +61,18 @@ def test_a_closed_pipe_is_no_traceback(tmp_path: Path) -> None:
     assert "Traceback" not in said
 
 
+def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
+    source = tmp_path / "a.dmc"
+    source.write_text("EN\n")
+    assert source.exists()
+    if Path("/dev/full").exists():
+        with Path("/dev/full").open("w") as full:
+            done = subprocess.run(
+                [*COMMAND, "run", str(source)], cwd=ROOT, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60
+            )
+        assert done.returncode == 2 and done.stderr.startswith("twoletter: ") and done.stderr.count("\n") == 1
+
+
 def test_calls_on_files_do_not_load_qt() -> None:
     script = (
         "import sys; from app.__main__ import main; code = main(['check', 'resources/examples/wire-cutter.tlp']); "

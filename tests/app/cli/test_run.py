@@ -149,12 +149,29 @@ def test_typed_answers_and_outside_forces(write: Write, capsys: Said) -> None:
         ("ms,signal,value\n10,in1,1\n5,in1,0\n", "line 3: not in time order"),
         ("ms,signal,value\nsoon,in1,1\n", "line 2"),
         ("ms,signal,value\n5,in1\n", "line 2"),
+        ("ms,signal,value\nnan,in1,1\n", "line 2"),
+        ("ms,signal,value\n-5,in1,1\n", "line 2"),
+        ("ms,signal,value\n5,in1,2\n", "0 or 1"),
+        ("ms,signal,value\n5,in1,0,5\n", "line 2: more than"),
+        ("ms,signal,value\n5,an1,12\n", "-10 and 10"),
+        ("ms,signal,value\n5,an1,inf\n", "line 2"),
+        ("ms,signal,value\n5,an8,1\n", "no signal an8"),
+        ("ms,signal,value\n5,in1,\0\n", "line 2"),
     ],
 )
 def test_unusable_stimulus(text: str, words: str, write: Write, capsys: Said) -> None:
     assert main(["run", write("a.dmc", "EN\n"), "--stimulus", write("s.csv", text)]) == 2
     said = capsys.readouterr().err
     assert words in said and said.count("\n") == 1
+
+
+def test_signals_are_those_of_the_controller(write: Write, capsys: Said) -> None:
+    path = write("a.dmc", "WT 20\nEN\n")
+    for signal in ("in8", "an3", "load_y"):
+        stimulus = write("s.csv", f"ms,signal,value\n1,{signal},1\n")
+        assert main(["run", path, "--controller", "dmc1412", "--stimulus", stimulus]) == 2
+        assert f"no signal {signal} on dmc1412" in capsys.readouterr().err
+        assert main(["run", path, "--controller", "ssc2", "--stimulus", stimulus]) == 0
 
 
 def test_trace_as_csv(write: Write, tmp_path: Path, capsys: Said) -> None:
@@ -215,6 +232,15 @@ def test_an_unfinished_step_does_not_run(write: Write, capsys: Said) -> None:
     assert "not finished" in said and said.count("\n") == 1
 
 
+def test_a_wrong_setup_does_not_run(write: Write, tmp_path: Path, capsys: Said) -> None:
+    path = changed_cutter(write, '"counts_per_unit": "637"', '"counts_per_unit": "abc"')
+    for arguments in (["run", path], ["compile", path, "-o", str(tmp_path / "o.dmc")]):
+        assert main(arguments) == 2
+        said = capsys.readouterr().err
+        assert "Counts per unit" in said and said.count("\n") == 1
+    assert not (tmp_path / "o.dmc").exists()
+
+
 def test_a_jump_to_nowhere_is_found_when_it_is_reached(write: Write, capsys: Said) -> None:
     path = changed_cutter(write, '"target": "A"', '"target": "NOPE"')
     found = ran(capsys, path, "--stimulus", write("s.csv", STIMULUS), "--time", "4", code=1)
@@ -260,6 +286,12 @@ def test_the_same_run_gives_the_same_bits(write: Write, tmp_path: Path, capsys: 
         (["run"], "FILE"),
         (["run", CUTTER, "--controller", "dmc9999"], "dmc9999"),
         (["run", CUTTER, "--time", "-1"], "--time"),
+        (["run", CUTTER, "--time", "nan"], "--time"),
+        (["run", CUTTER, "--time", "inf"], "--time"),
+        (["run", CUTTER, "--trace", "no/such/folder/t.csv"], "no folder"),
+        (["simulate", "--eeprom", "."], "."),
+        (["compile", "missing.dmc"], "missing.dmc: no such file"),
+        (["run", ".", "--time", "1"], "is a folder"),
         (["run", CUTTER, "--trace", "t.doc"], ".npz"),
         (["run", CUTTER, "--setup", "missing.tls"], "missing.tls"),
         (["simulate", "--chain", "2"], "daisy"),
