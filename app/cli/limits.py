@@ -1,4 +1,4 @@
-"""Gives a simulated controller the limits of a machine's setup, as its burned parameters would."""
+"""Gives a simulated controller the limits and loop rate of a machine's setup, as its burned parameters would."""
 
 from __future__ import annotations
 
@@ -41,7 +41,10 @@ def limits_of(axis: Axis) -> dict[str, int]:
 
 
 def apply_limits(simulation: Simulation, setup: Setup) -> None:
-    """Sets the limits of every axis; a value the controller would refuse is left out."""
+    """Sets the loop rate and the limits of every axis; a value the controller would refuse is left out."""
+    period = parse_number(setup.sample_us)
+    if period is not None and COMMANDS["TM"].accepts(int(period) * ONE, simulation.model):
+        put(simulation.unit, "TM", 0, int(period) * ONE)
     for place, letter in enumerate(simulation.model.axes):
         for name, value in limits_of(setup.axis(letter)).items():
             row = COMMANDS[name]

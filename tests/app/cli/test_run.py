@@ -241,6 +241,18 @@ def test_a_wrong_setup_does_not_run(write: Write, tmp_path: Path, capsys: Said) 
     assert not (tmp_path / "o.dmc").exists()
 
 
+def test_the_loop_rate_of_the_setup_keeps_the_english_true(write: Write, tmp_path: Path, capsys: Said) -> None:
+    path = changed_cutter(write, '"sample_us": "1000"', '"sample_us": "500"')
+    out = tmp_path / "t.csv"
+    found = ran(capsys, path, "--stimulus", write("s.csv", STIMULUS), "--time", "4", "--trace", str(out))
+    assert abs(found["axes"]["X"]["commanded"] - 6370) <= 1
+    rows = list(csv.DictReader(out.open(newline="")))
+    moving = [float(row["ms"]) for a, row in pairwise(rows) if row["x_commanded"] != a["x_commanded"]]
+    # 10 in at 5 in/s and 400 in/s² last 2 s + 5/400 s, whatever the loop rate is
+    assert abs(moving[-1] - moving[0] - 2012.5) < 10
+    assert abs(float(rows[1]["ms"]) - float(rows[0]["ms"]) - 500 / 1024) < 0.001
+
+
 def test_a_jump_to_nowhere_is_found_when_it_is_reached(write: Write, capsys: Said) -> None:
     path = changed_cutter(write, '"target": "A"', '"target": "NOPE"')
     found = ran(capsys, path, "--stimulus", write("s.csv", STIMULUS), "--time", "4", code=1)
