@@ -11,6 +11,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
 
+from app.insertion import is_open_body, is_there, refusal_of, takes_new_steps
 from app.recovery import Recovered, Recovery
 from codegen import files
 from codegen.document import Document
@@ -31,7 +32,6 @@ from codegen.program import (
     remove,
     renewed,
     replace,
-    section_of,
 )
 from codegen.setup import Setup
 
@@ -206,14 +206,14 @@ class Session(QObject):
         ahead = before if before is not None else self.before
         if ahead is None and self.open_body is not None and section != Section.CONFIGURATION:
             place = Place(self.open_body, len(find(program, self.open_body).body))
-            if not _refusal(program, instruction, place):
+            if not refusal_of(program, instruction, place):
                 return place
         return place_for(program, instruction, ahead, section)
 
     def refusal(self, steps: Sequence[Step], place: Place) -> str:
         """Why steps cannot stand at a place of the tree; empty when they can."""
         return next(
-            (reason for step in steps if (reason := _refusal(self.document.program, step.instruction, place))), ""
+            (reason for step in steps if (reason := refusal_of(self.document.program, step.instruction, place))), ""
         )
 
     def insert_before(self, step_id: str | None) -> None:
@@ -226,12 +226,12 @@ class Session(QObject):
         if self.open_body is None:
             return
         parent = place_of(self.document.program, self.open_body).parent
-        self.open_body = parent if _is_repeat(self.document.program, parent) else None
+        self.open_body = parent if is_open_body(self.document.program, parent) else None
         self.insertion_changed.emit()
 
     def _follow_insertion(self, ids: Sequence[str]) -> None:
         last = find(self.document.program, ids[-1])
-        if _holds(last):
+        if takes_new_steps(last):
             self.open_body, self.before = last.id, None
         self.insertion_changed.emit()
 
@@ -358,8 +358,8 @@ class Session(QObject):
     def _keep_insertion_valid(self) -> None:
         program = self.document.program
         before = (self.open_body, self.before)
-        self.open_body = self.open_body if _is_there(program, self.open_body) else None
-        self.before = self.before if _is_there(program, self.before) else None
+        self.open_body = self.open_body if is_there(program, self.open_body) else None
+        self.before = self.before if is_there(program, self.before) else None
         if before != (self.open_body, self.before):
             self.insertion_changed.emit()
 
@@ -416,37 +416,6 @@ def _titles(instructions: Sequence[Instruction]) -> str:
 
 def _count(number: int) -> str:
     return f"{number} step" if number == 1 else f"{number} steps"
-
-
-def _is_there(program: Program, name: str | None) -> bool:
-    return name is not None and any(step.id == name for step in program.steps())
-
-
-def _is_repeat(program: Program, name: str) -> bool:
-    return any(step.id == name and _holds(step) for step in program.steps())
-
-
-def _holds(step: Step) -> bool:
-    """Whether new steps go into it until the user leaves it (a subroutine is closed by its End)."""
-    return step.instruction.container and step.instruction.section != "S"
-
-
-def _refusal(program: Program, instruction: Instruction, place: Place) -> str:
-    """Why an instruction cannot stand there: configuration, main and subroutines each take their own."""
-    title, wanted = instruction.title, instruction.section
-    if wanted == "S":
-        return "" if place.parent == Section.ROUTINES else f"{title} belongs to Subroutines"
-    if place.parent == Section.ROUTINES:
-        return f"{title} belongs inside a subroutine: drop it on one"
-    if _in_configuration(program, place):
-        return "" if "C" in wanted else f"{title} belongs to Main or into a subroutine"
-    return "" if "M" in wanted else f"{title} belongs to Configuration"
-
-
-def _in_configuration(program: Program, place: Place) -> bool:
-    return (
-        place.parent if place.parent in tuple(Section) else section_of(program, place.parent)
-    ) == Section.CONFIGURATION
 
 
 def _fingerprint(path: Path) -> str:

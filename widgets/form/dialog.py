@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from codegen.instructions import Group, Instruction
-from widgets.form.editors import Buttons
+from widgets.form.buttons import Buttons
 from widgets.form.form import InstructionForm
 from widgets.form.offers import Offers
 from widgets.parts.look import look

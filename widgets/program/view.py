@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QMimeData, QPoint, Qt, Signal
+from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidget
 
 from codegen import read
@@ -15,13 +15,14 @@ from codegen.instructions import ALL, Comment, Instruction, TwoLetterCode
 from codegen.program import Place, Section, Step, find, place_of
 from widgets.form.inspector import Inspector
 from widgets.form.offers import offers_of
+from widgets.program import clipboard
 from widgets.program.code_popup import CodePopup
 from widgets.program.commands import COMMANDS, make_actions
 from widgets.program.delegate import ProgramDelegate
 from widgets.program.dialogs import Dialogs
 from widgets.program.header import Header
 from widgets.program.insertion_bar import InsertionBar
-from widgets.program.model import STEPS_MIME, ProgramModel
+from widgets.program.model import ProgramModel
 from widgets.program.node import TITLES
 from widgets.program.palette import Palette
 from widgets.program.problems import ProblemsPanel
@@ -167,7 +168,7 @@ class ProgramView(QWidget):
             return "Select the step to insert before"
         if name == "end_of_repeat" and self.session.open_body is None and self.session.before is None:
             return "New steps already go to the end"
-        if name == "paste" and not self._clipboard():
+        if name == "paste" and not clipboard.has_steps():
             return "Copy steps of a program first"
         return None
 
@@ -231,15 +232,11 @@ class ProgramView(QWidget):
     def copy(self) -> None:
         ids = self.tree.chosen()
         if ids:
-            data = QMimeData()
-            text = self.session.copy(ids)
-            data.setData(STEPS_MIME, ("\n".join(ids) + "\f" + text).encode())
-            data.setText("\n".join(self._plain(step_id) for step_id in ids))
-            QApplication.clipboard().setMimeData(data)
+            clipboard.put(ids, self.session.copy(ids), "\n".join(self._plain(step_id) for step_id in ids))
             self.refresh_commands()
 
     def paste(self) -> None:
-        kind, text = self._clipboard_text()
+        kind, text = clipboard.take()
         before = self.tree.current() if self.tree.chosen() else None
         if kind == "steps":
             self._paste(text, before=before)
@@ -381,18 +378,6 @@ class ProgramView(QWidget):
 
     def _plain(self, step_id: str) -> str:
         return "\n".join(self.words.code_lines(self.step(step_id))) or self.words.english(self.step(step_id))
-
-    def _clipboard(self) -> bool:
-        data = QApplication.clipboard().mimeData()
-        return data is not None and (data.hasFormat(STEPS_MIME) or data.hasText())
-
-    def _clipboard_text(self) -> tuple[str, str]:
-        data = QApplication.clipboard().mimeData()
-        if data is None:
-            return "", ""
-        if data.hasFormat(STEPS_MIME):
-            return "steps", bytes(data.data(STEPS_MIME).data()).decode().partition("\f")[2]
-        return ("code", data.text()) if data.hasText() else ("", "")
 
     def _menu(self, point: QPoint) -> None:
         menu = QMenu(self)
