@@ -233,7 +233,7 @@ def _without_axes(setup: Setup) -> Setup:
 def needed(instruction: Instruction, setup: Setup) -> Setup:
     """The setup as far as an instruction depends on it: what is known of it stays known when a scale changes."""
     kind: Any = type(instruction)
-    return setup if _has_axes(kind) else _without_axes(setup)
+    return setup if kind.uses_setup or _has_axes(kind) else _without_axes(setup)
 
 
 # ---------------------------------------------------------------------- fields

@@ -23,6 +23,7 @@ from codegen.instructions.math import MathematicalEquation
 from codegen.instructions.motion import BeginMotion, Home, MotionParameters, SingleAxisMove, StopMotion
 from codegen.instructions.operator import Print, UserInterface
 from codegen.instructions.raw import Comment, TwoLetterCode
+from codegen.instructions.records import Communication, ExtendedIO, RecordData, UserSetup
 from codegen.instructions.servo import DualLoop, FeedForward, LoopRate, Offset, PidGains
 from codegen.instructions.tasks import ClearScreen, Execute, HaltTask, Interrupt, ZeroStack
 from codegen.instructions.waits import WaitForCondition
@@ -32,12 +33,16 @@ ALL: tuple[type[Instruction], ...] = (
     AccelDecel,
     AnalogFeedback,
     ArmLatch,
+    Communication,
     DefinePosition,
     Drive,
     Encoder,
+    ExtendedIO,
     Comment,
     Motor,
     PositionFormat,
+    RecordData,
+    UserSetup,
     VariableArray,
     WriteEeprom,
     Output,
@@ -91,6 +96,7 @@ __all__ = [
     "BeginMotion",
     "ClearScreen",
     "Comment",
+    "Communication",
     "DedicatedInputs",
     "DefinePosition",
     "DisableGearing",
@@ -100,6 +106,7 @@ __all__ = [
     "Encoder",
     "End",
     "Execute",
+    "ExtendedIO",
     "FeedForward",
     "FollowingError",
     "Group",
@@ -122,6 +129,7 @@ __all__ = [
     "PositionFormat",
     "PositionLimits",
     "Print",
+    "RecordData",
     "Repeat",
     "SingleAxisMove",
     "StopMotion",
@@ -129,6 +137,7 @@ __all__ = [
     "TorqueLimit",
     "TwoLetterCode",
     "UserInterface",
+    "UserSetup",
     "VariableArray",
     "Wait",
     "WaitForCondition",

@@ -38,6 +38,7 @@ class Instruction:
     help: ClassVar[str]
     container: ClassVar[bool] = False
     needs: ClassVar[str] = ""  # why no controller of ours can do it ("" = they can)
+    uses_setup: ClassVar[bool] = False  # reads the axes of the setup beyond what its fields name
     was: ClassVar[tuple[str, ...]] = ()  # former class names in files
     renamed: ClassVar[dict[str, str]] = {}  # former field name -> present one
 

@@ -66,6 +66,17 @@ from codegen.instructions.machine import (
 )
 from codegen.instructions.motion import Beginning, Direction, Homing, MoveMode, WaitFor, Which
 from codegen.instructions.operator import AnswerKind, ItemKind, Port, PrintItem, Shape
+from codegen.instructions.records import (
+    Baud,
+    Communication,
+    Interval,
+    Link,
+    PortMode,
+    RecordData,
+    Recording,
+    Source,
+    UserSetup,
+)
 from codegen.instructions.servo import DualLoop, FeedForward, Offset, PidGains
 from codegen.instructions.tasks import (
     ClearScreen,
@@ -216,6 +227,19 @@ SETUP = Setup(
         (Interrupt(which=Interrupts.NONE), "Let no input interrupt the program", "II 0"),
         (ZeroStack(), "Forget the last call", "ZS 1"),
         (ZeroStack(levels=Levels.ALL), "Forget all calls", "ZS 0"),
+        (Communication(baud=Baud.B19200, echo=True), "Port 2 at 19200 baud, for messages and data, with echo", "CC 19200,0,0,1"),
+        (Communication(mode=PortMode.CHAIN, handshake=True), "Port 2 at 9600 baud, with handshake, as a daisy chain", "CC 9600,1,1,0"),
+        (Communication(what=Link.INTERRUPT), "Interrupt by characters: port 1 no interrupt, port 2 on Enter", "CI 0,1,0"),
+        (
+            RecordData(recordings=(Recording(array="POS", size="500"), Recording(array="INS", source=Source.INPUTS)), interval=Interval.MS8, count="100"),
+            "Record position of X in POS; inputs in INS every 8 samples, 100 times",
+            "DM POS[500]/RA POS[],INS[]/RD _TPX,_TI/RC 3,100",
+        ),
+        (
+            RecordData(recordings=(Recording(array="POS", size="500"),), endless=True),
+            "Record position of X in POS every 2 samples, over and over",
+            "DM POS[500]/RA POS[]/RD _TPX/RC 1,-500",
+        ),
         (DualLoop(axes=("on", "", "", "")), "Dual loop: X on", "DV 1"),
         (FeedForward(velocity=("10", "", "", ""), acceleration=("", "5.25", "", "")), "Feed forward: velocity X 10 acceleration Y 5.25", "FV 10/FA ,5.25"),
         (Offset(offset=("-0.5", "", "", "")), "Offset of the motor command X -0.5 V", "OF -0.5"),
@@ -272,6 +296,20 @@ def test_problems(instruction: Instruction, field: str, message: str | None) -> 
     if message is not None:
         assert finding.message == message
     assert code(instruction, SETUP) == ()
+
+
+def test_the_setup_is_sent_as_its_instructions_would() -> None:
+    """spec/instructions.md, User Setup Settings; empty values and axes the controller has not are left out."""
+    axis = Axis(counts_per_unit="100", kp="20", kd="100", fv="5", smoothing="128", forward_limit="10", torque_limit="5")
+    setup = (
+        Setup(model="ssc2")
+        .with_axis("X", axis)
+        .with_axis("Y", Axis(motor=MotorType.STEPPER_HIGH, kp="3", off_on_error=False))
+    )
+    assert code(UserSetup(), setup) == ("KP 20", "KD 100", "FV 5", "IT 0.5", "FL 1000", "OE 1", "TL 5")
+    rest = UserSetup(motors=True, encoders=True, pid=False, feed_forward=False, smoothing=False, limits=False)
+    assert code(rest, setup) == ("MT 1,-2", "CE 0,0")
+    assert sentence(rest, setup) == "Send from the machine's setup · motor types · encoders"
 
 
 def test_hidden_fields_do_not_count() -> None:

@@ -14,6 +14,7 @@ from codegen.instructions import (
     BeginMotion,
     ClearScreen,
     Comment,
+    Communication,
     DedicatedInputs,
     DefinePosition,
     DisableGearing,
@@ -23,6 +24,7 @@ from codegen.instructions import (
     Encoder,
     End,
     Execute,
+    ExtendedIO,
     FeedForward,
     FollowingError,
     HaltTask,
@@ -44,6 +46,7 @@ from codegen.instructions import (
     PositionFormat,
     PositionLimits,
     Print,
+    RecordData,
     Repeat,
     SingleAxisMove,
     StopMotion,
@@ -51,6 +54,7 @@ from codegen.instructions import (
     TorqueLimit,
     TwoLetterCode,
     UserInterface,
+    UserSetup,
     VariableArray,
     Wait,
     WaitForCondition,
@@ -58,7 +62,7 @@ from codegen.instructions import (
     ZeroStack,
 )
 from codegen.twoletter.calls import Statement
-from codegen.twoletter.emit import flow, io, machine, motion, settings, tasks
+from codegen.twoletter.emit import flow, io, machine, motion, records, settings, tasks
 from codegen.twoletter.emit.build import Build
 
 Emitter: TypeAlias = Callable[[Any, Build], Iterator[Statement]]
@@ -72,6 +76,7 @@ EMITTERS: Mapping[type[Instruction], Emitter] = {
     BeginMotion: motion.begin_motion,
     ClearScreen: tasks.clear_screen,
     Comment: settings.comment,
+    Communication: records.communication,
     DedicatedInputs: machine.dedicated_inputs,
     DefinePosition: machine.define_position,
     DisableGearing: tasks.disable_gearing,
@@ -101,6 +106,7 @@ EMITTERS: Mapping[type[Instruction], Emitter] = {
     PositionFormat: machine.position_format,
     PositionLimits: machine.position_limits,
     Print: io.print_items,
+    RecordData: records.record_data,
     Repeat: flow.repeat,
     SingleAxisMove: motion.single_axis_move,
     StopMotion: motion.stop_motion,
@@ -108,13 +114,14 @@ EMITTERS: Mapping[type[Instruction], Emitter] = {
     TorqueLimit: machine.torque_limit,
     TwoLetterCode: settings.two_letter_code,
     UserInterface: io.user_interface,
+    UserSetup: records.user_setup,
     VariableArray: settings.variable_array,
     Wait: flow.wait,
     WaitForCondition: flow.wait_for_condition,
     WriteEeprom: machine.write_eeprom,
     ZeroStack: tasks.zero_stack,
 }
-CANNOT: Mapping[type[Instruction], str] = {}  # instruction -> why two-letter code has nothing for it
+CANNOT: Mapping[type[Instruction], str] = {ExtendedIO: "none of these controllers has it"}
 
 
 def statements(instruction: Instruction, build: Build) -> tuple[Statement, ...]:
