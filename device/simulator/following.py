@@ -29,6 +29,7 @@ class Contour:
                     part[layout.START] = part[layout.MARK] = part[layout.POSITION]
                 part[layout.MOVING] = 1.0
                 part[layout.IN_POSITION] = 0.0
+                part[layout.SETTLING] = -1.0
                 part[layout.STOP_CODE] = 50.0
         self._state[layout.CONTOUR_LENGTH] = float(2**exponent if exponent else 0)
         self._state[layout.CONTOUR_BUFFERED] = 1.0

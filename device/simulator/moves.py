@@ -38,6 +38,7 @@ class Moves(Readings):
         state[b + layout.STAGE] = layout.STAGE_NONE
         state[b + layout.STOP_CODE] = 0.0
         state[b + layout.AT_SPEED] = state[b + layout.IN_POSITION] = 0.0
+        state[b + layout.SETTLING] = -1.0  # the time of MC begins with the end of this move
         return b
 
     def begin_position(self, axis: int, target: int) -> None:

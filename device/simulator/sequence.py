@@ -218,6 +218,7 @@ class Path:
                 part[layout.MOVING] = 1.0
                 part[layout.STOP_CODE] = 100.0
                 part[layout.IN_POSITION] = part[layout.AT_SPEED] = 0.0
+                part[layout.SETTLING] = -1.0
                 part[layout.START] = part[layout.MARK] = part[layout.PATH_ORIGIN] = part[layout.POSITION]
             if part[layout.GEAR_MASTER] == layout.PATH_SMOOTHED:
                 part[layout.GEAR_LAST] = 0.0
