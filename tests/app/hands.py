@@ -74,7 +74,7 @@ class Hands:
     # ---- made of these
 
     def add(self, title: str, **fields: str) -> None:
-        """Adds an instruction; a field is named as in its definition, with the axis behind for per-axis fields (`acceleration_X`)."""
+        """Adds an instruction; fields are named as in its definition, per-axis ones with the axis: `acceleration_X`."""
         dialog = self.pick(title)
         for name, text in fields.items():
             self.enter(dialog, name, text)

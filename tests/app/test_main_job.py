@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit
 from app.compose import Studio
 from app.connection import connector
 from app.settings import Settings
-from app.studio import help_pages
+from app.studio import begin, help_pages
 from codegen.models import MODELS
 from device.api import Badge, Kind, State
 from tests.app.hands import PATIENCE_S, Hands, Keys, Mouse, shown, until
