@@ -26,6 +26,7 @@ from app.stop_key import StopKey
 from app.talk import Talk
 from app.theme import Choice, Theme
 from app.tick import Tick
+from app.which_model import WhichModel
 from app.window import BOTTOM, LEFT, RIGHT, Window
 from codegen.document import Document
 from device.api import Controller
@@ -66,6 +67,7 @@ class Studio(QObject):
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.search = Search(connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.window)
+        self.which = WhichModel(self.connection, settings, self.desk.ask)
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
@@ -125,7 +127,7 @@ class Studio(QObject):
     def _join(self) -> None:
         for panel in self.panels:
             self.tick.add(panel)
-        for look in (self.ear.look, self.follow.look, self.search.look, self.stop_key.stay_first):
+        for look in (self.ear.look, self.follow.look, self.which.look, self.search.look, self.stop_key.stay_first):
             self.tick.each(look)
         self._join_window()
         self._join_talk()
@@ -161,6 +163,7 @@ class Studio(QObject):
         self.window.header.switch.wanted.connect(talk.control)
         self.display.io_control_wanted.connect(talk.io_control)
         self.display.output_wanted.connect(talk.output)
+        self.display.read_wanted.connect(talk.not_waiting)
         self.display.connect_wanted.connect(self.start.look)
         self.display.simulator_wanted.connect(self.start.use_simulator)
         self.terminal.command.connect(talk.typed)

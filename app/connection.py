@@ -119,12 +119,13 @@ class Simulated:
             self._process.close()
 
 
-def connector(programs: Path, idle_s: Callable[[], float]) -> Connector:
+def connector(programs: Path, idle_s: Callable[[], float], known: Callable[[], dict[int, str]] = dict) -> Connector:
     """Opens real lines and starts simulators; programs found in a controller are kept in `programs`."""
 
     def connect(address: str, line: LineSettings) -> Opened:
         if not address.startswith(SIMULATOR):
-            return Opened(Controller.connect(address, line, program_folder=programs, idle_limit_s=idle_s()))
+            more = {"program_folder": programs, "idle_limit_s": idle_s(), "known_models": known()}
+            return Opened(Controller.connect(address, line, **more))
         world = Simulated(address.removeprefix(SIMULATOR), line)
         kind = Kind.SIMULATOR
         return Opened(Controller(world.open, kind=kind, line=line, program_folder=programs, own=world), world)

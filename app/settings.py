@@ -58,6 +58,8 @@ ROWS = (
     Row("idle_minutes", float, 10.0, "Back to Watch after",
         "Minutes without an action after which Control falls back to Watch.",
         low=0.5, high=480.0),
+    Row("known_models", dict, {}, "Known controllers",
+        "Types of controllers that do not name themselves, by serial number."),
     Row("recent_files", list, [], "Recent programs", "Programs opened last, newest first."),
     Row("layout", str, "Program", "Layout", "Arrangement of the panels.", ("Program", "Run", "Own")),
     Row("window", dict, {}, "Window", "Place, size and arrangement of the panels."),

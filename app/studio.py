@@ -14,6 +14,7 @@ from app.compose import Studio
 from app.connection import connector
 from app.search import Candidate
 from app.settings import Settings, data_folder, settings_path
+from app.which_model import known_models
 
 SAMPLE = "examples/wire-cutter.tlp"
 
@@ -26,7 +27,9 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
     application.setApplicationName("Twoletter Studio")
     settings = Settings(settings_path())
     folder = data_folder()
-    opener = connector(folder / "programs", lambda: 60.0 * float(settings.get("idle_minutes")))
+    opener = connector(
+        folder / "programs", lambda: 60.0 * float(settings.get("idle_minutes")), lambda: known_models(settings)
+    )
     studio = Studio(application, settings, folder, opener, list_ports, help_pages())
     studio.crash.install()
     studio.window.show()

@@ -184,6 +184,11 @@ class FakeController:
     def traffic(self, after: int = 0) -> list[Traffic]:
         return []
 
+    def choose_model(self, name: str) -> int | None:
+        self.calls.append(("model", name))
+        self.model, self.axes = MODELS[name], MODELS[name].axes
+        return 1234
+
     def close(self) -> None:
         self.closed = True
 

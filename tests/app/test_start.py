@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QPushButton
 
 from app.search import Candidate
 from app.studio import begin
+from app.which_model import known_models
 from device.api import Kind, State
 from tests.stage import Stage
 
@@ -229,3 +230,27 @@ def test_the_arrangement_is_remembered(stage: Stage) -> None:
     stage.studio.desk.arrange("Program")
     assert stage.studio.window.restore(kept)
     assert not stage.studio.window.docks["Terminal"].isVisible()
+
+
+def test_a_controller_that_does_not_name_itself_is_asked_about_once(stage: Stage) -> None:
+    fake = stage.connect("machine")
+    fake.model, fake.axes = None, ""
+    stage.go()
+    question = stage.studio.desk.question
+    assert question is not None
+    assert "SSC3" in question.buttons
+    QTest.mouseClick(question.buttons["SSC3"], Qt.MouseButton.LeftButton)
+    stage.go()
+    assert ("model", "ssc3") in fake.calls
+    assert set(stage.studio.display.axes) == {"X", "Y", "Z"}
+    assert known_models(stage.studio.settings) == {1234: "ssc3"}
+
+
+def test_whoever_does_not_know_the_type_is_left_in_peace(stage: Stage) -> None:
+    fake = stage.connect("machine")
+    fake.model = None
+    stage.go()
+    assert stage.studio.desk.question is not None
+    stage.studio.desk.question = None
+    stage.go()
+    assert stage.studio.desk.question is None

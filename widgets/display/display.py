@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
-from device.api import Kind
+from device.api import Kind, State
 from widgets.display.levels import Levels
 from widgets.display.position import AxisReadout
 from widgets.display.readings import axis_shown, switches_of
@@ -36,6 +36,7 @@ class DisplayPanel(Panel):
     output_wanted = Signal(int, bool)
     connect_wanted = Signal()
     simulator_wanted = Signal()
+    read_wanted = Signal()  # the person knows that no program waits for an answer
 
     def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(parent)
@@ -49,6 +50,10 @@ class DisplayPanel(Panel):
         self.inputs, self.outputs = Levels(LAMP), Levels()
         self.switches, self.threads = SwitchTable(), ThreadList()
         self.io_control = QCheckBox("I/O control")
+        self.read_now = QPushButton("Read now")
+        self.read_now.setToolTip("Reads live values again: I know that no program waits for an answer.")
+        self.read_now.clicked.connect(self.read_wanted)
+        self.read_now.hide()
         self._lay_out()
         self.io_control.clicked.connect(self.io_control_wanted)
         self.outputs.wanted.connect(self.output_wanted)
@@ -99,6 +104,7 @@ class DisplayPanel(Panel):
         assert controller is not None
         text = f"{controller.rate_hz:.0f} reads/s" if controller.polling else controller.polling_text
         set_text(self.rate, text)
+        self.read_now.setVisible(not controller.polling and controller.state is State.READY)
 
     def _show_io_control(self) -> None:
         controller = self.controller
@@ -144,8 +150,10 @@ class DisplayPanel(Panel):
         outer = QVBoxLayout(self)
         outer.setContentsMargins(8, 0, 8, 4)
         head = QHBoxLayout()
-        head.addStretch(1)
-        head.addWidget(self.rate)
+        head.addWidget(self.read_now)
+        head.addWidget(self.rate, 1)
+        self.rate.setWordWrap(True)
+        self.rate.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.rate.setProperty("role", "quiet")
         outer.addLayout(head)
         self.empty.setWordWrap(True)

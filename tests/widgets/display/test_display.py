@@ -162,6 +162,14 @@ def test_suspended_reading_says_why(panel: DisplayPanel) -> None:
     fake(panel).polling, fake(panel).polling_text = False, "waiting for an answer"
     panel.refresh(live_row())
     assert panel.rate.text() == "waiting for an answer"
+    asked: list[bool] = []
+    panel.read_wanted.connect(lambda: asked.append(True))
+    assert panel.read_now.isVisible()
+    panel.read_now.click()
+    assert asked == [True]
+    fake(panel).polling = True
+    panel.refresh(live_row())
+    assert not panel.read_now.isVisible()
 
 
 def test_outputs_switch_only_with_io_control(panel: DisplayPanel, qtbot: QtBot) -> None:
