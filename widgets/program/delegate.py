@@ -107,7 +107,11 @@ class ProgramDelegate(QStyledItemDelegate):
             used = self._text(painter, box.adjusted(0, 0, -room // 3, 0), sentence, font, colour) + 2 * GAP
             self._text(painter, box.adjusted(used, 0, 0, 0), problem, option.font, self._colour(option, token))
         else:
-            self._text(painter, box, sentence, font, colour)
+            used = self._text(painter, box, sentence, font, colour) + 2 * GAP
+            if step.note:
+                quiet = QFont(option.font)
+                quiet.setItalic(True)
+                self._text(painter, box.adjusted(used, 0, 0, 0), step.note, quiet, self._colour(option, "quiet"))
 
     def _problem(self, step_id: str, enabled: bool) -> tuple[str, str]:
         if self.error is not None and self.error[0] == step_id:

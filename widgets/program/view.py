@@ -410,6 +410,7 @@ class ProgramView(QWidget):
         self.instructions.chosen.connect(self._chosen_kind)
         self.problems.chosen.connect(self.reveal_step)
         self.inspector.edited.connect(session.replace)
+        self.inspector.noted.connect(session.set_note)
         self.dialogs.said.connect(self.said)
         self.dialogs.help_requested.connect(self.help_requested)
         QApplication.clipboard().dataChanged.connect(self.refresh_commands)

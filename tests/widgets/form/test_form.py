@@ -210,3 +210,14 @@ def test_gains_go_to_the_configuration_unless_told_otherwise(qtbot: QtBot) -> No
     dialog = InstructionDialog(PidGains(), offers(), new=True)
     qtbot.addWidget(dialog)
     assert dialog.section.chosen() == ["configuration"]
+
+
+def test_a_note_is_told_apart_from_the_values(qtbot: QtBot) -> None:
+    inspector = Inspector(offers())
+    qtbot.addWidget(inspector)
+    inspector.show_step(Step("s1", Wait(time="20"), note="lamp"), offers())
+    assert inspector.note.text() == "lamp"
+    noted: list[tuple[str, str]] = []
+    inspector.noted.connect(lambda *what: noted.append(what))
+    qtbot.keyClicks(inspector.note, "s")
+    assert noted == [("s1", "lamps")]
