@@ -261,6 +261,8 @@ def check_moving(unit: Unit, call: Call) -> None:
     for axis in axes:
         if motion.moving(axis):
             if row.moving_mode == "jog":
+                if call.name == "JG" and motion.stopping(axis):
+                    continue  # the speed of the next jog
                 if not motion.jogging(axis):
                     raise CommandError(13 if call.name == "JG" else 7)
             elif row.moving_mode != "idle":

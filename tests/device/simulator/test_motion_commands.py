@@ -153,6 +153,16 @@ def test_jog_changes_on_the_way() -> None:
     assert bench.ask("MG _BG{F1.0}") == " 0"
 
 
+def test_jog_speed_given_during_a_stop_is_for_the_next_jog() -> None:
+    bench = Bench("ssc1")
+    bench.run(
+        "SH\nJG 40000\nBGX\nWT 500\nSTX\nJG -2000\nAMX\nS=_SCX\nP=_RPX\nBGX\nASX\nP=_RPX\nWT 512\nP=_RPX-P\nSTX\nEN"
+    )
+    variables = bench.simulation.state()["variables"]
+    assert variables["S"] == 4
+    assert variables["P"] == pytest.approx(-1000, abs=5)  # 512 samples at 2000 counts/s
+
+
 def test_increment_position() -> None:
     bench = Bench("ssc2")
     bench.ask("PR 5000;BGX")
