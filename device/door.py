@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import lru_cache
 
 from codegen.twoletter import nodes
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 
 REVISION = b"\x12\x16"
@@ -26,6 +27,20 @@ def only_reads(data: bytes) -> bool:
         return False
     line = parse_line(data[:-1].decode("ascii"))
     return all(_reads(statement) for statement in line.statements)
+
+
+@lru_cache(maxsize=2048)
+def waits(data: bytes) -> str:
+    """The trippoint in a line, if there is one: the port takes nothing else before it trips."""
+    if not data.isascii():
+        return ""
+    line = data.decode("ascii").rstrip("\r")
+    for text in (line, line.replace(" ", "")):  # blanks mean nothing outside quotes
+        for statement in parse_line(text).statements:
+            name = statement.name if isinstance(statement, nodes.Command) else ""
+            if name in COMMANDS and COMMANDS[name].trippoint:
+                return name
+    return ""
 
 
 def _reads(statement: nodes.Statement) -> bool:
@@ -88,7 +103,7 @@ class Door:
         self.resting: Callable[[], str] = lambda: ""  # why live reads rest now
         self.erasing = False  # the confirmed action that erases the memory sets it for its one send
 
-    def refusal(self, data: bytes, *, stop: bool, answer: bool, poll: bool = False) -> str:
+    def refusal(self, data: bytes, *, stop: bool, answer: bool, poll: bool = False, stored: bool = False) -> str:
         """Why these bytes may not leave, as one sentence, or nothing."""
         if stop:
             return ""
@@ -102,4 +117,7 @@ class Door:
             return "Control-R control-S erases the controller's memory; it is sent only by its own confirmed action."
         if not self.control and data != self._choose_unit and not only_reads(data):
             return "Not sent: this is Watch. Take Control to move, set or download."
+        trippoint = "" if stored else waits(data)
+        if trippoint:
+            return f"{trippoint} typed here would hold this line, STOP included, until it trips; use it in a program."
         return ""

@@ -188,7 +188,7 @@ class Download:
                 raise DownloadFailed(
                     f"Download cancelled at line {number} of {total}: the controller holds only the lines before it."
                 )
-            answer = yield Send(line.encode("ascii") + b"\r", hold=True, watch_for=b"?:")
+            answer = yield Send(line.encode("ascii") + b"\r", hold=True, watch_for=b"?:", stored=True)
             self._reply_where_none_belongs(answer, number)
             if paced or number == 0:
                 pause = 0.02 + 2 * self._line.byte_s * (len(line) + 1)

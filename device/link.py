@@ -285,6 +285,7 @@ class Link:
             stop=task.priority is Priority.STOP,
             answer=step.answers_prompt,
             poll=task.priority is Priority.POLL,
+            stored=step.stored,
         )
         if refusal:
             self._throw(task, NotAllowed(refusal))

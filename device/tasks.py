@@ -55,6 +55,7 @@ class Send:
     `extends`: the time-out starts again with every byte that comes.
     `watch_for`: any of these bytes, coming while the task holds the line, ends the step as refused.
     `refusal_s`: a `?` followed by so much silence ends the wait early, as uncertain.
+    `stored`: a line of a program, which is kept and not carried out.
     """
 
     data: bytes
@@ -65,6 +66,7 @@ class Send:
     watch_for: bytes = b""
     answers_prompt: bool = False
     refusal_s: float = 0.0
+    stored: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -112,3 +112,37 @@ def test_outputs_need_their_own_switch() -> None:
     bench.controller.set_io_control(True)
     assert bench.result(bench.controller.io.set_output(1, True)).accepted
     assert bench.simulation.state()["outputs"] & 1
+
+
+TRIPPOINTS = ["AM", "AM X", "WT 100", "AI 5", "MC X", "BG X;AM X", "AD 100", "PR 5;BG;AS;SB1", "AT 0", " A M"]
+
+
+@pytest.mark.parametrize("line", TRIPPOINTS)
+def test_a_trippoint_typed_by_hand_never_leaves(line: str) -> None:
+    """The port would take nothing, STOP included, until it trips (dmc-1412-1414.txt, example 8)."""
+    bench = Bench("ssc4").ready()
+    bench.ask("SH")
+    bench.sent.clear()
+    with pytest.raises(NotAllowed, match="STOP included, until it trips; use it in a program"):
+        bench.result(bench.controller.ask(line))
+    assert line.encode() not in bench.sent
+
+
+def test_trippoints_in_a_program_are_downloaded() -> None:
+    bench = Bench("ssc4").ready()
+    assert bench.result(bench.controller.download("#A\nPR 10;BG X;AM X\nWT 5\nEN").future).verified
+    for line in ("DL", "#B", "AM", "\\"):
+        assert bench.result(bench.controller.ask(line)).accepted
+
+
+def test_behind_a_trippoint_somebody_else_left_stop_is_not_confirmed_until_it_trips() -> None:
+    bench = Bench("ssc4").ready()
+    bench.ask("SH;JG 20000;BG X")
+    bench.simulation.receive(1, b"AI -5\r")
+    bench.run(0.2)
+    bench.controller.stop()
+    bench.run(2.0)
+    assert bench.controller.stop_state is StopState.NOT_CONFIRMED
+    bench.simulation.stimulus("in5", 0)
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
+    assert bench.still()
