@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QLineEdit, QPushButton, QWidget
 
-from codegen.program import Program, program_label
+from codegen.program import Program
 from widgets.parts.look import look
 
 MODES = {"program": "Program", "both": "Both", "code": "Code"}
@@ -51,14 +51,13 @@ class Header(QWidget):
             self.modes[mode] = button
             switch.addWidget(button)
 
-    def show_program(self, program: Program) -> None:
+    def show_program(self, program: Program, label: str) -> None:
         """Shows name, label and description; what is being typed stays."""
         if program.name != self.name.text():
             self.name.setText(program.name)
         if program.description != self.description.text():
             self.description.setText(program.description)
             self.description.setCursorPosition(0)
-        label = f"#{program_label(program)}"
         if label != self.label.text():
             self.label.setText(label)
 

@@ -86,7 +86,7 @@ class ProgramView(QWidget):
             self.tree.expandAll()
         self.tree.viewport().update()
         self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
-        self.header.show_program(new.program)
+        self.header.show_program(new.program, _label(listing))
         self.problems.show_problems(new, listing)
         if self.dialogs.open:
             self.dialogs.show_offers(offers_of(new))
@@ -435,3 +435,9 @@ class ProgramView(QWidget):
             column.addWidget(widget)
         column.setStretchFactor(self.splitter, 1)
         self.setAccessibleDescription(f"Sections {', '.join(TITLES[section.value] for section in Section)}")
+
+
+def _label(listing: Listing) -> str:
+    """The label the program has in its code: the first of its frame that is not #AUTO."""
+    texts = (text for line in listing.lines[:2] for text in line.text.split(";"))
+    return next((text for text in texts if text.startswith("#") and text != "#AUTO"), "")
