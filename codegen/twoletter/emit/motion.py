@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from math import ceil
 
 from codegen.fields import Dimension, PerAxisText
 from codegen.instructions.configuration import AccelDecel
@@ -20,7 +21,7 @@ from codegen.instructions.motion import (
     WaitFor,
     Which,
 )
-from codegen.numbers import decimal, parse_number
+from codegen.numbers import parse_number
 from codegen.twoletter.calls import Statement, Value, by_axis, for_axes, simple
 from codegen.twoletter.emit.build import Build
 
@@ -61,7 +62,8 @@ def smoothing(axis: str, text: str, build: Build) -> Statement:
     amount = parse_number(text) or Fraction(0)
     if build.setup.axis(axis).is_stepper:
         return by_axis("KS", {axis: amount})
-    return by_axis("IT", {axis: max(Fraction(decimal((256 - amount) / 256, 4)), SMOOTHEST)})
+    # the controller rounds down to 1/256 (commands.md, IT), so the four decimals are rounded up
+    return by_axis("IT", {axis: max(Fraction(ceil((256 - amount) / 256 * 10_000), 10_000), SMOOTHEST)})
 
 
 def wait_for(wait: WaitFor, axes: str, time_out: str, build: Build) -> Iterator[Statement]:
