@@ -50,6 +50,7 @@ class Studio(QObject):
         ports: Callable[[], list[Candidate]],
         pages: Mapping[str, str],
         clock: Callable[[], float] = time.monotonic,
+        seek: Connector | None = None,
     ) -> None:
         super().__init__()
         self.settings = settings
@@ -65,7 +66,7 @@ class Studio(QObject):
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
-        self.search = Search(connect, clock, self)
+        self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.window)
         self.which = WhichModel(self.connection, settings, self.desk.ask)
         self.actions = Actions(self._handlers(), self.program.commands, self)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from PySide6.QtCore import QObject, Signal
 
 from device.api import Controller, Kind
+from device.find import probe
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 
 if TYPE_CHECKING:
@@ -129,5 +130,40 @@ def connector(programs: Path, idle_s: Callable[[], float], known: Callable[[], d
         world = Simulated(address.removeprefix(SIMULATOR), line)
         kind = Kind.SIMULATOR
         return Opened(Controller(world.open, kind=kind, line=line, program_folder=programs, own=world), world)
+
+    return connect
+
+
+class Probed:
+    """Opens a line for the search: the first time it listens and asks who is there before anything else is sent."""
+
+    def __init__(self, address: str, line: LineSettings) -> None:
+        self._address, self._line = address, line
+        self._known = False
+
+    def open(self) -> Transport:
+        """OpenFailed with a sentence when nobody answers; runs on the link's thread."""
+        if not self._known:
+            found = probe(self._address, self._line, used_before=True, ask=lambda _: True)  # the person has allowed it
+            if isinstance(found, str):
+                raise OpenFailed(found)
+            self._known = True
+        return open_transport(self._address, self._line)
+
+
+def seeker(programs: Path, idle_s: Callable[[], float], known: Callable[[], dict[int, str]] = dict) -> Connector:
+    """As `connector`, for ports that may have something else behind them."""
+
+    def connect(address: str, line: LineSettings) -> Opened:
+        return Opened(
+            Controller(
+                Probed(address, line).open,
+                kind=Kind.MACHINE,
+                line=line,
+                program_folder=programs,
+                idle_limit_s=idle_s(),
+                known_models=known(),
+            )
+        )
 
     return connect

@@ -11,7 +11,7 @@ from app.connection import Connector, Opened
 from device.api import State
 from device.transport import LineSettings
 
-PATIENCE_S = 4.0
+PATIENCE_S = 6.0
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QLocale, QTimer
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 
 import resources
 from app.compose import Studio
-from app.connection import connector
+from app.connection import connector, seeker
 from app.search import Candidate
 from app.settings import Settings, data_folder, settings_path
 from app.which_model import known_models
@@ -27,10 +28,10 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
     application.setApplicationName("Twoletter Studio")
     settings = Settings(settings_path())
     folder = data_folder()
-    opener = connector(
-        folder / "programs", lambda: 60.0 * float(settings.get("idle_minutes")), lambda: known_models(settings)
-    )
-    studio = Studio(application, settings, folder, opener, list_ports, help_pages())
+    idle_s, known = partial(_idle_s, settings), partial(known_models, settings)
+    connect_to = connector(folder / "programs", idle_s, known)
+    seek = seeker(folder / "programs", idle_s, known)
+    studio = Studio(application, settings, folder, connect_to, list_ports, help_pages(), seek=seek)
     studio.crash.install()
     studio.window.show()
     studio.tick.start()
@@ -54,6 +55,10 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
         studio.start.open_port(what)
     elif way == "ask":
         studio.start.begin()
+
+
+def _idle_s(settings: Settings) -> float:
+    return 60.0 * float(settings.get("idle_minutes"))
 
 
 def list_ports() -> list[Candidate]:

@@ -49,6 +49,11 @@ class Window(QMainWindow):
         }
         self._areas: dict[Qt.DockWidgetArea, list[Dock]] = {}
         self._was_shown = False
+        self._titles, self._first = QTimer(self), QTimer(self)
+        for timer, call in ((self._titles, self.show_titles), (self._first, self.first_shown.emit)):
+            timer.setSingleShot(True)
+            timer.setInterval(0)
+            timer.timeout.connect(call)
         self._shown: tuple[str, Kind] | None = None
         middle = QWidget()
         column = QVBoxLayout(middle)
@@ -71,7 +76,7 @@ class Window(QMainWindow):
         panels.addAction(dock.toggleViewAction())
         floats.addAction(title, lambda: dock.setFloating(not dock.isFloating()))
         for signal in (dock.dockLocationChanged, dock.visibilityChanged, dock.topLevelChanged):
-            signal.connect(lambda *_: QTimer.singleShot(0, self.show_titles))
+            signal.connect(self._titles.start)
         return dock
 
     def show_title(self, name: str, kind: Kind) -> None:
@@ -124,7 +129,7 @@ class Window(QMainWindow):
         super().showEvent(event)
         if not self._was_shown:
             self._was_shown = True
-            QTimer.singleShot(0, self.first_shown.emit)  # docks made tabs before that leave stray tab bars behind
+            self._first.start()  # docks made tabs before that leave stray tab bars behind
 
     def _size_docks(self) -> None:
         sides = [self.docks[title] for title in ("Instructions", "Display") if title in self.docks]

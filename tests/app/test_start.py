@@ -9,10 +9,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
+from app import connection
 from app.search import Candidate
 from app.studio import begin
 from app.which_model import known_models
 from device.api import Kind, State
+from device.find import Found
+from device.transport import LineSettings, OpenFailed
 from tests.stage import Stage
 
 KNOWN = Candidate("/dev/ttyS0", "COM port", True)
@@ -55,7 +58,7 @@ def test_a_silent_port_ends_in_the_welcome_window_never_in_the_simulator(stage: 
     stage.controllers[0].state = State.CONNECTING
     stage.go()
     assert stage.studio.search.busy
-    stage.later(5.0)
+    stage.later(7.0)
     stage.go()
     welcome = stage.studio.start.welcome_window()
     assert welcome.isVisible()
@@ -254,3 +257,20 @@ def test_whoever_does_not_know_the_type_is_left_in_peace(stage: Stage) -> None:
     stage.studio.desk.question = None
     stage.go()
     assert stage.studio.desk.question is None
+
+
+def test_the_search_asks_who_is_there_before_anything_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    order: list[str] = []
+
+    def probe(address: str, line: LineSettings, **_: object) -> Found | str:
+        order.append("probe")
+        return "Nobody there." if address == "COM9" else Found(address, "SSC", None)
+
+    monkeypatch.setattr(connection, "probe", probe)
+    monkeypatch.setattr(connection, "open_transport", lambda address, line: order.append(f"open {address}"))
+    port = connection.Probed("COM1", LineSettings())
+    port.open()
+    port.open()
+    assert order == ["probe", "open COM1", "open COM1"]
+    with pytest.raises(OpenFailed, match="Nobody there"):
+        connection.Probed("COM9", LineSettings()).open()
