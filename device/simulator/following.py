@@ -116,7 +116,8 @@ class Cam:
 
     def _change(self, axis: int, at: float, follow: bool) -> None:
         part = self._parts[axis]
-        if 0.0 <= at < self._state[layout.CAM_CYCLE]:
+        there = follow and at == self._state[layout.CAM_LAST]  # the master stands at the place already
+        if 0.0 <= at < self._state[layout.CAM_CYCLE] and not there:
             part[layout.CAM_WAITS] = 1.0
             part[layout.CAM_NEXT] = 1.0 if follow else 0.0
             part[layout.CAM_AT] = float(at)
