@@ -32,6 +32,8 @@ def connected(facts: Facts) -> str:
     """A controller that answers."""
     if facts.kind is Kind.OFFLINE:
         return "Connect a controller or start the simulator first."
+    if facts.state is State.CONNECTING:
+        return "Still connecting; a moment please."
     if facts.state is not State.READY:
         return f"The controller does not answer ({facts.state.value})."
     return ""

@@ -103,6 +103,8 @@ class DisplayPanel(Panel):
         controller = self.controller
         assert controller is not None
         text = f"{controller.rate_hz:.0f} reads/s" if controller.polling else controller.polling_text
+        if controller.state is not State.READY:
+            text = controller.state_text
         set_text(self.rate, text)
         self.read_now.setVisible(not controller.polling and controller.state is State.READY)
 
