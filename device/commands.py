@@ -137,10 +137,10 @@ def _judged(controller: Controller, answer: Answer, command: str, limit: float, 
     fenced = yield from fence(controller.nonces, max(limit, 0.6))
     if nonce and nonce in wire.seen:
         return Reply("", True, False)
-    if fenced.kind is not Kind.VALUES:
-        raise LinkLost(f"No clear answer to “{command}”.")
+    code = int(fenced.values[0]) if fenced.kind is Kind.VALUES else 0
+    if ("?" not in answer.text and answer.kind is not Kind.REFUSED) or not code:
+        raise LinkLost(f"No clear answer to “{command}”; look whether it was carried out.")
     wire.strip_question()
-    code = int(fenced.values[0])
     words = ERROR_TEXTS.get(code, "unknown error")
     return Reply("", False, True, code, f"{command}: refused, error {code}, {words}.")
 

@@ -282,3 +282,27 @@ def test_a_lost_dl_never_runs_the_lines_as_commands() -> None:
     assert "did not go into download mode" in text
     assert b"PR 1000" not in bench.sent
     assert bench.still()
+
+
+def test_a_controller_switched_off_while_burning_is_no_success() -> None:
+    bench = Bench("ssc4").ready()
+    bench.result(bench.controller.download(PROGRAM).future)
+    future = bench.controller.burn_program()
+    bench.run(0.3)
+    bench.simulation.stimulus("reset", 0)
+    bench.simulation.stimulus("reset", 1)
+    with pytest.raises(LinkError) as failure:
+        bench.result(future)
+    assert "\n" not in str(failure.value)
+    works_again(bench)
+
+
+def test_garbage_while_burning_is_no_refusal() -> None:
+    """Some `?` on the line are not the answer; the proof behind the command is."""
+    bench = Bench("ssc4").ready()
+    bench.result(bench.controller.download(PROGRAM).future)
+    transmit, noise = bench.simulation.transmit, [b"\xf7?\x81:"]
+    future = bench.controller.burn_program()
+    bench.run(0.3)
+    bench.simulation.transmit = lambda port: (noise.pop() if noise else b"") + transmit(port)  # type: ignore[method-assign]
+    assert bench.result(future, 40.0).accepted
