@@ -64,6 +64,8 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
         errors = (Finding("", message),)
     elif refusal := next(filter(None, (refused(each, setup) for each in made if isinstance(each, Call))), None):
         errors = (Finding("", refusal),)
+    if errors:
+        return Compiled((), (), 0, defines, target, (), (), errors, warnings, "", True)
     unscaled = "".join(letter for letter in axes_of(instruction) if not setup.axis(letter).is_set_up)
     split = made.index(BODY) if BODY in made else len(made)
     arrays = tuple(each.arguments.split("[")[0] for each in made if isinstance(each, Call) and each.name == "DM")

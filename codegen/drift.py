@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from codegen.expressions import Bad, Binary, Expression, Negative, Number, walk
 from codegen.fields import AXES, Dimension, value_of
 from codegen.instructions import Repeat, SingleAxisMove
 from codegen.instructions.flow import RepeatMode
@@ -47,4 +48,33 @@ def drift(step: Step, setup: Setup) -> str | None:
     for letter in setup.letters:
         if letter in AXES and abs(off := error(step.body, setup, letter) * count) * setup.axis(letter).scale >= 1:
             parts.append(f"{letter} by {shown(off, 4)} {setup.axis(letter).symbol}")
-    return f"This repeat drifts: {', '.join(parts)} in {plain(count)} turns" if parts else None
+    if parts:
+        return f"This repeat drifts: {', '.join(parts)} in {plain(count)} turns"
+    if reverses(step.body):
+        return "This repeat may drift: expressions are cut down to whole counts, going back as well as forth"
+    return None
+
+
+def reverses(steps: Steps) -> bool:
+    """Whether a relative move goes by an expression with a minus, which the controller rounds downwards."""
+    for step in steps:
+        move = step.instruction
+        if not step.enabled:
+            continue
+        if isinstance(move, SingleAxisMove) and move.mode is MoveMode.BY:
+            distance = value_of(move.distance)
+            if not isinstance(distance, Fraction | Bad) and any(map(_is_minus, walk(distance))):
+                return True
+        if reverses(step.body):
+            return True
+    return False
+
+
+def _is_minus(node: Expression) -> bool:
+    match node:
+        case Negative() | Binary(operator="-"):
+            return True
+        case Number(value=number):
+            return number < 0
+        case _:
+            return False

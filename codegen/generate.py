@@ -11,12 +11,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from codegen.compiled import Compiled, code, compiled, numbered
+from codegen.conversion import CALIBRATED_US
 from codegen.document import Document
 from codegen.drift import drift
 from codegen.fields import SYSTEM_LABELS, Choice, fields_of
 from codegen.instructions import End, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
-from codegen.program import Section, Step, is_closed, program_label
+from codegen.program import Program, Section, Step, is_closed, program_label
 from codegen.setup import Finding, never_set_up, setup_problems
 from codegen.twoletter.calls import Call
 from codegen.twoletter.nodes import Command
@@ -129,6 +130,7 @@ class _Pass:
             self.lines.append(Line("#AUTO"))
         self.lines.append(Line(f"#{label}"))
         self.defined[label] = ""
+        self.loop_rate()
         self.walk(self.program.configuration, Section.CONFIGURATION)
         self.walk(self.program.main, Section.MAIN)
         self.lines.append(Line("EN"))
@@ -136,6 +138,14 @@ class _Pass:
             self.routine(routine)
         self.free_arrays()
         self.check_jumps()
+
+    def loop_rate(self) -> None:
+        """The loop rate of the setup, which everything is converted for, unless the program sets its own."""
+        if self.setup.sample == CALIBRATED_US or _own_rate(self.program):
+            return
+        made = compiled(LoopRate(period=self.setup.sample_us), self.setup)
+        self.problems += made.errors
+        self.lines += [Line(text) for text in made.before]
 
     def walk(self, steps: tuple[Step, ...], section: Section) -> None:
         for step in steps:
@@ -230,6 +240,10 @@ class _Pass:
         for label, step in self.jumps:
             if label not in self.defined and label not in SYSTEM_LABELS:
                 self.problems.append(Finding("target", f"There is no label {label}", "error", "", step))
+
+
+def _own_rate(program: Program) -> bool:
+    return any(step.enabled and isinstance(step.instruction, LoopRate) for step in program.configuration)
 
 
 def _sets_loop_rate(code: TwoLetterCode) -> bool:

@@ -24,7 +24,7 @@ from codegen.fields import (
     joined,
 )
 from codegen.instructions.instruction import Instruction
-from codegen.setup import Finding, Setup
+from codegen.setup import Finding, Setup, setup_problems
 
 MISSING = "…"
 
@@ -126,7 +126,7 @@ def _word(item: Any, name: str, setup: Setup) -> str:
             return MISSING
         raise _Absent
     if isinstance(field, ListOf):
-        return "; ".join(_sentence_of(row, setup) for row in value)
+        return field.joint.join(_sentence_of(row, setup) for row in value)
     text = field.text(value, context_of(item, name, setup))
     if not text:
         raise _Absent
@@ -337,13 +337,21 @@ def _problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
             _judge(found, name, field, value, context, problem)
     if any(finding.severity == "error" for finding in found):
         return tuple(sorted(found, key=lambda finding: finding.severity))
-    if own := instruction.own_problem():
+    if own := instruction.own_problem() or _setup_problem(instruction, setup):
         found.insert(0, Finding(*own))
     elif reason := cannot(type(instruction), setup):
         found.insert(0, Finding("", reason))
     elif advice := instruction.own_warning(setup):
         found.append(Finding(*advice, "warning"))
     return tuple(found)
+
+
+def _setup_problem(instruction: Instruction, setup: Setup) -> tuple[str, str] | None:
+    """What is wrong in the setup with an instruction that sends the setup."""
+    if not instruction.uses_setup:
+        return None
+    wrong = (finding.message for finding in setup_problems(setup) if finding.severity == "error")
+    return next((("", message) for message in wrong), None)
 
 
 def _judge(

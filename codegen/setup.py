@@ -128,6 +128,13 @@ class Axis:
         return number if number is not None and number > 0 else Fraction(1)
 
     @property
+    def scale_problem(self) -> str | None:
+        """Why the scale cannot be used; nothing may be converted with it then."""
+        number = parse_number(self.counts_per_unit)
+        usable = not self.counts_per_unit.strip() or (number is not None and number > 0)
+        return None if usable else "the counts per unit in the setup are no number above 0"
+
+    @property
     def is_set_up(self) -> bool:
         """Whether somebody entered the scale (an axis in counts needs none)."""
         return self.unit is Unit.COUNT or self.counts_per_unit.strip() != ""
@@ -313,6 +320,9 @@ def setup_problems(setup: Setup) -> tuple[Finding, ...]:
     if setup.model not in MODELS:
         return (Finding("model", f"Controller: there is no model '{setup.model}'"),)
     found: list[Finding] = []
+    rate = fields_of(setup)["sample_us"].problem(setup.sample_us, Context(setup))
+    if rate:
+        found.append(Finding("sample_us", rate))
     for letter in setup.letters:
         found += _axis_problems(setup, letter)
     for names, field in ((setup.input_names, "input_names"), (setup.output_names, "output_names")):

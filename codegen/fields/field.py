@@ -77,6 +77,7 @@ class ListOf(Field):
 
     row: type[Any]
     most: int = 0
+    joint: str = "; "  # what stands between the rows in the sentence
 
 
 def value(field: Field, default: Any = "") -> Any:

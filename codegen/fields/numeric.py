@@ -6,11 +6,25 @@ import dataclasses as dc
 from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-from codegen.expressions import Bad, Element, Expression, Variable, constant, parse_expression, write
-from codegen.fields.field import Context, Counts, Field
+from codegen.expressions import (
+    Bad,
+    Element,
+    Expression,
+    Operand,
+    String,
+    Variable,
+    constant,
+    parse_expression,
+    walk,
+    write,
+)
+from codegen.fields.field import AXES, Context, Counts, Field
 from codegen.numbers import looks_like_number, number_problem, parse_number, plain
+
+if TYPE_CHECKING:
+    from codegen.setup import Setup
 
 
 class Dimension(StrEnum):
@@ -26,14 +40,21 @@ class Dimension(StrEnum):
     NUMBER = "number"
 
 
-def numeric_problem(label: str, text: str) -> str | None:
+def numeric_problem(label: str, text: str, setup: Setup, strings: bool = False) -> str | None:
     """What is wrong with a text that should be a number or an expression."""
     if parse_number(text) is not None:
         return None
     if looks_like_number(text):
         return f"{label}: {number_problem(text)}"
     tree = parse_expression(text)
-    return f"{label}: {tree.message}" if isinstance(tree, Bad) else None
+    if isinstance(tree, Bad):
+        return f"{label}: {tree.message}"
+    for node in walk(tree):
+        if isinstance(node, String) and not strings:
+            return f"{label} must be a number, no text"
+        if isinstance(node, Variable) and len(node.name) == 2 and setup.is_command(node.name):
+            return f"{label}: {node.name} is a command of the controller, no variable"
+    return None
 
 
 @lru_cache(maxsize=8192)
@@ -68,12 +89,23 @@ class Quantity(Field):
     warns: ClassVar[bool] = True
 
     def wrong(self, value: str, context: Context) -> str | None:
-        if problem := numeric_problem(self.label, value):
+        if problem := numeric_problem(self.label, value, context.setup) or self.scale_problem(value, context):
             return problem
         number = value_of(value)
         if type(number) is not Fraction:
             return f"{self.label} must be a plain number" if self.literal else None
         return self.range_problem(number, context)
+
+    def scale_problem(self, value: str, context: Context) -> str | None:
+        """Why nothing can be converted on this axis, or on one that the expression reads."""
+        letters = {context.axis}
+        number = value_of(value)
+        if not isinstance(number, Fraction | Bad):
+            letters |= {node.suffix for node in walk(number) if isinstance(node, Operand)}
+        for letter in sorted(letters & set(AXES)):
+            if problem := context.setup.axis(letter).scale_problem:
+                return f"Axis {letter}: {problem}"
+        return None
 
     def range_problem(self, number: Fraction, context: Context) -> str | None:
         """Why a number is outside what axis and controller can do."""
@@ -146,7 +178,7 @@ class Number(Field):
     warns: ClassVar[bool] = True
 
     def wrong(self, value: str, context: Context) -> str | None:
-        if problem := numeric_problem(self.label, value):
+        if problem := numeric_problem(self.label, value, context.setup):
             return problem
         number = value_of(value)
         if type(number) is not Fraction:
@@ -224,7 +256,7 @@ class ExpressionField(Field):
     """Any expression, raw: positions and speeds in it are counts."""
 
     def wrong(self, value: str, context: Context) -> str | None:
-        return numeric_problem(self.label, value)
+        return numeric_problem(self.label, value, context.setup, strings=True)
 
     def text(self, value: str, context: Context) -> str:
         return value_text(value)

@@ -99,7 +99,7 @@ class PositionLimits(Instruction):
     title = "Position"
     group = Group.LIMITS
     section = "C/M"
-    sentence = "Position limits:[ forward {forward}][ reverse {reverse}]"
+    sentence = "Position limits: [forward {forward}[; reverse {reverse}]|reverse {reverse}|…]"
     help = "Sets how far the axes may go. Motion beyond slows down to a stop. Write off to switch a limit off."
 
     forward: PerAxisText = value(

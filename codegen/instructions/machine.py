@@ -136,7 +136,7 @@ class Encoder(Instruction):
     title = "Encoder"
     group = Group.CONFIGURATION
     section = "C"
-    sentence = "Encoders:[ main {main}][ auxiliary {auxiliary}]"
+    sentence = "Encoders: [main {main}[; auxiliary {auxiliary}]|auxiliary {auxiliary}|…]"
     help = "Sets the kind of each encoder; what is left empty is taken from the machine's setup."
 
     main: PerAxisText = value(
@@ -173,7 +173,7 @@ class Motor(Instruction):
     title = "Motor"
     group = Group.CONFIGURATION
     section = "C"
-    sentence = "Motors:[ {types}][ off at first: {off}]"
+    sentence = "Motors: [{types}[; off at first: {off}]|off at first: {off}|…]"
     help = "Sets the kind of motor and its polarity, and which motors are off at first."
 
     types: PerAxisText = value(

@@ -135,7 +135,7 @@ class Print(Instruction):
         Choice(label="Port", kind=Port, words=PORT_WORDS, phrases=PORT_PHRASES, help="Where it is sent."), Port.MAIN
     )
     items: tuple[PrintItem, ...] = value(
-        ListOf(label="Items", row=PrintItem, most=40, help="What is printed, in this order."), ()
+        ListOf(label="Items", row=PrintItem, joint=", ", most=40, help="What is printed, in this order."), ()
     )
     same_line: bool = value(
         Flag(label="No line end", phrase="without a line end", help="The next print goes on in the same line."), False

@@ -83,7 +83,7 @@ class FeedForward(Instruction):
     title = "Feed Forward"
     group = Group.SERVO
     section = "C/M"
-    sentence = "Feed forward:[ velocity {velocity}][ acceleration {acceleration}]"
+    sentence = "Feed forward: [velocity {velocity}[; acceleration {acceleration}]|acceleration {acceleration}|…]"
     help = "Adds a voltage in proportion to the commanded speed and acceleration, so that the load lags less."
 
     velocity: PerAxisText = value(_gain("Velocity", 8191, "1", "Voltage in proportion to the speed."), NONE)
@@ -131,7 +131,10 @@ class PidGains(Instruction):
     title = "PID Gains"
     group = Group.SERVO
     section = "C/M"
-    sentence = "PID gains:[ proportional {proportional}][ integral {integral}][ derivative {derivative}]"
+    sentence = (
+        "PID gains: [proportional {proportional}[; integral {integral}][; derivative {derivative}]"
+        "|integral {integral}[; derivative {derivative}]|derivative {derivative}|…]"
+    )
     help = "Sets stiffness (proportional), the cure of a lasting error (integral) and damping (derivative) of the loop."
 
     proportional: PerAxisText = value(_gain("Proportional", 1023.875, "0.125", "Stiffness of the loop."), NONE)

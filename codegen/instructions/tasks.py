@@ -141,7 +141,12 @@ class Interrupt(Instruction):
     )
     inputs: tuple[InterruptInput, ...] = value(
         ListOf(
-            label="Inputs", row=InterruptInput, most=8, when={"which": Interrupts.SOME}, help="Any of them interrupts."
+            label="Inputs",
+            row=InterruptInput,
+            joint=" and ",
+            most=8,
+            when={"which": Interrupts.SOME},
+            help="Any of them interrupts.",
         ),
         (InterruptInput(),),
     )

@@ -59,7 +59,7 @@ class WaitForCondition(Instruction):
     sentence = (
         "[Wait until {axis} {place} {position}|Wait until {axis} has gone {distance} {place}"
         "|Wait until the path has gone {path} {place}"
-        "|Wait until {speed_axis} is at speed|{clock} {time}|{clock}"
+        "|Wait until {speed_axis} is at speed|Wait until the clock shows {time}[, {clock}]|{clock}"
         "|Wait until the motion of {axes} {finished}, at most {time_out}|Wait until the motion of {axes} {finished}"
         "|Wait until {moving} {finished}|Wait until {moving} is at speed|Wait until all motion {finished}"
         "|Wait until input {input} is {level}]"
@@ -172,8 +172,8 @@ class WaitForCondition(Instruction):
             },
             phrases={
                 Clock.NOW: "Start the clock",
-                Clock.AFTER: "Wait until the clock shows",
-                Clock.AGAIN: "Wait until the clock shows and start it again at",
+                Clock.AFTER: "",
+                Clock.AGAIN: "then start it again",
             },
             when={"kind": WaitKind.CLOCK},
             help="Times are counted from the moment the clock was started.",

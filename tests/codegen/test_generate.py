@@ -26,6 +26,7 @@ from codegen.instructions import (
     Print,
     Repeat,
     SingleAxisMove,
+    StopMotion,
     Subroutine,
     TwoLetterCode,
     VariableArray,
@@ -34,7 +35,7 @@ from codegen.instructions import (
 from codegen.instructions.configuration import Declare
 from codegen.instructions.flow import EndOf, RepeatMode, Routine
 from codegen.instructions.math import Equation
-from codegen.instructions.motion import MoveMode
+from codegen.instructions.motion import MoveMode, Which
 from codegen.instructions.operator import ItemKind, PrintItem
 from codegen.models import MODELS
 from codegen.program import Place, Program, Step, find, fresh, insert, replace
@@ -239,6 +240,24 @@ def test_loop_rate_keeps_the_english_true() -> None:
     assert sentence(steps[1].instruction, fast.working_setup) == "Wait 20 ms (40 samples = 19.5 ms)"
     late = Document(Program("P", main=(rate, *steps)), setup)
     assert [finding.step for finding in generate(late).problems] == ["t"]
+
+
+def test_the_loop_rate_of_the_setup_is_sent() -> None:
+    """Everything is converted for it, so the controller must have it (safety.md, 6)."""
+    setup = Setup(model="ssc1", sample_us="2000").with_axis("X", Axis(counts_per_unit="637"))
+    move = Step("m", SingleAxisMove(distance="1", speed="5"))
+    listing = generate(Document(Program("P", main=(move,)), setup))
+    assert listing.text.split("\n")[:4] == ["#P", "TM 2000", "PR 637", "SP 6370"] and listing.problems == ()
+    own = (Step("t", LoopRate(period="1000")),)
+    assert generate(Document(Program("P", configuration=own, main=(move,)), setup)).text.split("\n")[1] == "TM 1000"
+    wrong = generate(Document(Program("P", main=(move,)), dc.replace(setup, model="ssc4", sample_us="250")))
+    assert not wrong.is_complete
+
+
+def test_a_step_with_an_error_sends_nothing() -> None:
+    """What a model cannot do is a remark, never code."""
+    listing = generate(document(StopMotion(which=Which.PATH), setup=Setup(model="ssc1")))
+    assert [line.text for line in listing.lines] == ["#P", "' The SSC, one axis has no coordinated motion", "EN"]
 
 
 def test_exact_waits() -> None:

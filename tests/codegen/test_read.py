@@ -96,6 +96,8 @@ from codegen.program import Program, Step
 from codegen.read import counts_text, has_errors, problem_of, problems, sentence, shown, unit_text, warning_of
 from codegen.rescale import scaled_text, with_setup
 from codegen.setup import Axis, MotorType, Setup, Unit
+from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.fixed import scaled
 from codegen.twoletter.nodes import Broken, Foreign
 from codegen.twoletter.parse import parse_line
 from tests.codegen.strategies import instructions, programs
@@ -168,7 +170,7 @@ SETUP = Setup(
                 items=(PrintItem(text="V="), PrintItem(kind=ItemKind.VALUE, expression="V", shape=Shape.DECIMAL, digits="4", decimals="2")),
                 same_line=True,
             ),
-            'Print "V="; V on the auxiliary port, without a line end',
+            'Print "V=", V on the auxiliary port, without a line end',
             'MG {P2}"V=",V{F4.2}{N}',
         ),
         (Print(items=(PrintItem(kind=ItemKind.CHARACTER, character="7"),)), "Print character 7", "MG {^7}"),
@@ -191,7 +193,7 @@ SETUP = Setup(
         ),
         (
             WaitForCondition(kind=WaitKind.CLOCK, clock=Clock.AGAIN, time="40"),
-            "Wait until the clock shows and start it again at 40 ms (40 samples = 39.1 ms)",
+            "Wait until the clock shows 40 ms, then start it again (40 samples = 39.1 ms)",
             "AT -40",
         ),
         (WaitForCondition(kind=WaitKind.POSITION, position="1"), "Wait until X passes 1 in", "AP 4000"),
@@ -207,7 +209,7 @@ SETUP = Setup(
         (Drive(axes="XY"), "Enable the drive of X and Y", "SH XY"),
         (Drive(power=Power.DISABLE), "Disable the drive of X", "MO X"),
         (Encoder(main=("pulse_reversed", "", "", ""), auxiliary=("", "quadrature_reversed", "", "")), None, "CE 3,8"),
-        (Motor(types=("servo_reversed", "", "stepper_low_reversed", ""), off="X"), "Motors: X Servo, reversed, Z Stepper, active low, reversed off at first: X", "MT -1,,2.5/MO X"),
+        (Motor(types=("servo_reversed", "", "stepper_low_reversed", ""), off="X"), "Motors: X Servo, reversed, Z Stepper, active low, reversed; off at first: X", "MT -1,,2.5/MO X"),
         (PositionFormat(digits="6", decimals="2", leading_zeros=False), "Show positions with 6 digits and 2 decimals, without leading zeros", "PF 6.2/LZ 1"),
         (WriteEeprom(what=Burned.VARIABLES), "Write the variables to the EEPROM", "BV"),
         (DedicatedInputs(home=Polarity.HIGH), "Limit inputs active low, home inputs active high, latch inputs active low", "CN -1,1,-1"),
@@ -222,8 +224,8 @@ SETUP = Setup(
         (Execute(label="WATCH", thread="2"), "Start WATCH in thread 2", "XQ #WATCH,2"),
         (HaltTask(thread="3"), "Halt thread 3", "HX 3"),
         (HaltTask(which=Halted.ALL), "Halt all threads", "HX"),
-        (Interrupt(inputs=(InterruptInput(input="2"), InterruptInput(input="Door"))), "Let input 2; 3 (Door) interrupt the program", "II 2,3"),
-        (Interrupt(inputs=(InterruptInput(input="1"), InterruptInput(input="4"))), "Let input 1; 4 interrupt the program", "II ,,9"),
+        (Interrupt(inputs=(InterruptInput(input="2"), InterruptInput(input="Door"))), "Let input 2 and 3 (Door) interrupt the program", "II 2,3"),
+        (Interrupt(inputs=(InterruptInput(input="1"), InterruptInput(input="4"))), "Let input 1 and 4 interrupt the program", "II ,,9"),
         (Interrupt(which=Interrupts.NONE), "Let no input interrupt the program", "II 0"),
         (ZeroStack(), "Forget the last call", "ZS 1"),
         (ZeroStack(levels=Levels.ALL), "Forget all calls", "ZS 0"),
@@ -241,16 +243,16 @@ SETUP = Setup(
             "DM POS[500]/RA POS[]/RD _TPX/RC 1,-500",
         ),
         (DualLoop(axes=("on", "", "", "")), "Dual loop: X on", "DV 1"),
-        (FeedForward(velocity=("10", "", "", ""), acceleration=("", "5.25", "", "")), "Feed forward: velocity X 10 acceleration Y 5.25", "FV 10/FA ,5.25"),
+        (FeedForward(velocity=("10", "", "", ""), acceleration=("", "5.25", "", "")), "Feed forward: velocity X 10; acceleration Y 5.25", "FV 10/FA ,5.25"),
         (Offset(offset=("-0.5", "", "", "")), "Offset of the motor command X -0.5 V", "OF -0.5"),
-        (PidGains(proportional=("20", "", "", ""), derivative=("100.125", "", "", "")), "PID gains: proportional X 20 derivative X 100.125", "KP 20/KD 100.125"),
+        (PidGains(proportional=("20", "", "", ""), derivative=("100.125", "", "", "")), "PID gains: proportional X 20; derivative X 100.125", "KP 20/KD 100.125"),
         (FollowingError(error=("0.25", "", "", "")), "Allow a following error of X 0.25 in", "ER 1000"),
         (Integrator(limit=("5", "", "", ""), freeze=True), "Limit the integrator to X 5 V, frozen while moving", "IL -5"),
         (MotorDisable(axes=("on", "off", "", "")), "Motor off on error: X on, Y off", "OE 1,0"),
         (TorqueLimit(limit=("9.9982", "", "", "")), "Limit the motor command to X 9.9982 V", "TL 9.9982"),
         (
             PositionLimits(forward=("1.00019", "off", "", ""), reverse=("-1.00019", "", "off", "")),
-            "Position limits: forward X 1.00019 in, Y off reverse X -1.00019 in, Z off",
+            "Position limits: forward X 1.00019 in, Y off; reverse X -1.00019 in, Z off",
             "FL 4000,2147483647/BL -4000,,-2147483648",
         ),
     ],
@@ -275,6 +277,8 @@ def test_sentence_and_code(instruction: Instruction, said: str | None, sent: str
         (SingleAxisMove(axis="Y", mode=MoveMode.AT, jog_speed="-101"), "jog_speed", "Speed must lie between -100 and 100 mm/s"),
         (SingleAxisMove(distance="1", wait=WaitFor.POSITION, time_out="40000"), "time_out", "At most must be at most 32767 ms"),
         (SingleAxisMove(axis="Z", distance="1", smoothing="9"), "smoothing", "Smoothing of a stepper must lie between 0.5 and 8"),
+        (SingleAxisMove(distance='"A"'), "distance", "Distance must be a number, no text"),
+        (SingleAxisMove(distance="SP*2"), "distance", "Distance: SP is a command of the controller, no variable"),
         (Output(output="9"), "output", "Output must lie between 1 and 8"),
         (Output(output="Gate"), "output", "Output: 'Gate' is neither a number nor a name of the setup"),
         (Wait(), "time", "Time is missing"),
@@ -310,6 +314,29 @@ def test_the_setup_is_sent_as_its_instructions_would() -> None:
     rest = UserSetup(motors=True, encoders=True, pid=False, feed_forward=False, smoothing=False, limits=False)
     assert code(rest, setup) == ("MT 1,-2", "CE 0,0")
     assert sentence(rest, setup) == "Send from the machine's setup · motor types · encoders"
+
+
+def test_every_smoothing_reaches_the_controller() -> None:
+    """0 … 255 is the filter (256 - s)/256, and the controller keeps steps of 1/256 (spec/instructions.md, Smoothing)."""
+    for amount in range(256):
+        (_, text, *_) = code(SingleAxisMove(distance="1", smoothing=str(amount)), SETUP)
+        stored = COMMANDS["IT"].stored(scaled(Fraction(text.removeprefix("IT "))))
+        assert stored == scaled(Fraction(max(256 - amount, 1), 256)), text
+
+
+@pytest.mark.parametrize("scale", ["0", "-5", "abc", "1000/3", "1e3", "12,5"])
+def test_no_number_leaves_with_an_unusable_scale(scale: str) -> None:
+    """Every step that converts on the axis is a problem, also where an expression reads the axis."""
+    setup = SETUP.with_axis("Y", Axis(counts_per_unit=scale))
+    for instruction in (
+        SingleAxisMove(axis="Y", distance="10"),
+        SingleAxisMove(axis="X", distance="_TPY"),
+        AccelDecel(acceleration=("", "10", "", "")),
+        PositionLimits(forward=("", "10", "", "")),
+        UserSetup(),
+    ):
+        assert compiled(instruction, setup).before == () and compiled(instruction, setup).errors
+    assert code(SingleAxisMove(axis="X", distance="1"), setup)
 
 
 def test_hidden_fields_do_not_count() -> None:
@@ -433,6 +460,12 @@ def test_drift_over_loops() -> None:
     assert drift(loop("1000", "0.25"), setup) is None
     inside = Step("o", Repeat(count="10"), body=(loop("100", "0.003"),))
     assert drift(inside, setup) == "This repeat drifts: Y by -3 mm in 10 turns"
+
+
+def test_expressions_with_a_minus_may_drift() -> None:
+    """commands.md, 11: an argument of step 1 is rounded downwards, so -LEN*4000 is one count more than LEN*4000."""
+    assert "may drift" in (drift(loop("10", "LEN", "-LEN"), SETUP) or "")
+    assert drift(loop("10", "LEN"), SETUP) is None
 
 
 def test_an_absolute_move_ends_the_drift() -> None:
