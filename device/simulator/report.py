@@ -18,7 +18,7 @@ def state(simulation: Simulation) -> dict[str, Any]:
     return {
         "controller": simulation.model.name,
         "virtual_seconds": simulation.ticks / TICKS,
-        "messages": [list(message) for message in simulation.messages],
+        "messages": [list(message) for message in simulation.unit.records.told()],
         "errors": [dict(error) for error in simulation.errors],
         "axes": {letter: _axis(simulation, axis) for axis, letter in enumerate(simulation.model.axes)},
         "inputs": facts.inputs,

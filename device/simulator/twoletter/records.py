@@ -40,6 +40,10 @@ class Records:
         if rest:
             self._open[port] = (began, rest)
 
+    def told(self) -> list[tuple[float, int, str]]:
+        """All messages, also those whose line has not ended yet."""
+        return [*self.messages, *((began, port, text) for port, (began, text) in sorted(self._open.items()))]
+
     def keep(self, count: int) -> None:
         """Forgets all but the newest messages and errors."""
         if len(self.messages) > 2 * count:

@@ -322,3 +322,10 @@ def test_a_run_ends_at_an_error_that_nothing_handles(slice_ms: int | None) -> No
         end = bench.simulation.run_until_idle(10_000 * MS if slice_ms is None else slice_ms * MS)
     assert end == "error"
     assert bench.simulation.ticks / MS == pytest.approx(11, abs=2)
+
+
+def test_a_message_without_line_end_is_told_too() -> None:
+    bench = Bench("ssc1")
+    bench.run('MG "A"{N}\nMG "B"\nMG "C"{N}\nMG {P2}"D"{N}\nEN')
+    state = bench.simulation.state()
+    assert [(port, text) for _, port, text in state["messages"]] == [(1, "AB"), (1, "C"), (2, "D")]
