@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from codegen.models import model
+from device.simulator.simulation import Simulation
+from device.simulator.times import TICKS
 from tests.device.simulator.bench import Bench
 
 PROGRAM = "#A\rPR 700\rSP 2000\rBG\rEN\r"  # dmc-1412-1414.txt l.1003
@@ -165,3 +168,12 @@ def test_lists_of_the_dmc1412() -> None:
     assert bench.ask("LL") == "#A=0\r\n#BB=2"
     assert bench.ask("LV") == "LEN= 0000000002.5000"
     assert bench.ask("LA") == "POS[10]"
+
+
+def test_a_program_that_frees_its_arrays_first_can_run_twice() -> None:
+    simulation = Simulation(model("ssc1"))
+    simulation.load_program("DA POS[]\nDM POS[10]\nPOS[9]=1\nEN")
+    for _ in range(2):
+        simulation.execute(0)
+        assert simulation.run_until_idle(TICKS) == "end"
+    assert simulation.state()["arrays"]["POS"] == [0] * 9 + [1]

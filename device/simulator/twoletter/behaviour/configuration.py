@@ -118,8 +118,7 @@ def deallocate(command: Command, following: int, unit: Unit, code: Code | None) 
             if item.name == "*":
                 (state.arrays if item.is_array else state.variables).clear()
             elif item.is_array:
-                if state.arrays.pop(item.name, None) is None:
-                    raise CommandError(memory.UNDEFINED_ARRAY)
+                state.arrays.pop(item.name, None)  # none there: nothing to free, so that a program can run again
             elif state.variables.pop(item.name, None) is None:
                 raise CommandError(57)
         return following
