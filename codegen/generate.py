@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from codegen.compiled import Compiled, code, compiled, numbered
 from codegen.conversion import CALIBRATED_US
@@ -40,14 +40,24 @@ __all__ = ["Line", "Listing", "code", "compiled", "generate"]
 class Line(NamedTuple):
     """One line of code; `step` is the step it comes from ("" = the frame of the program).
 
-    `problem` tells why a step could not be turned into code (then the line is a remark). Where several
-    statements share a line, `spans` names the step of each: (first column, column after it, step).
+    `problem` tells why a step could not be turned into code (then the line is a remark). `parts` are the
+    lines that share this one in compact code.
     """
 
     text: str
     step: str = ""
     problem: str = ""
-    spans: tuple[tuple[int, int, str], ...] = ()
+    parts: tuple[Any, ...] = ()
+
+    @property
+    def spans(self) -> tuple[tuple[int, int, str], ...]:
+        """Where several statements share the line: (first column, column after it, step) of each."""
+        found: list[tuple[int, int, str]] = []
+        start = 0
+        for part in self.parts:
+            found.append((start, start + len(part.text), part.step))
+            start += len(part.text) + 1
+        return tuple(found)
 
 
 @dc.dataclass(frozen=True)
@@ -81,7 +91,7 @@ class Listing:
         return tuple(
             number
             for number, line in enumerate(self.lines)
-            if line.step == step or any(span[2] == step for span in line.spans)
+            if line.step == step or any(part.step == step for part in line.parts)
         )
 
 
@@ -293,11 +303,4 @@ STARTING = frozenset("#'NR")
 
 
 def _joined(group: list[Line]) -> Line:
-    if len(group) == 1:
-        return group[0]
-    spans: list[tuple[int, int, str]] = []
-    start = 0
-    for text, step, _, _ in group:
-        spans.append((start, start + len(text), step))
-        start += len(text) + 1
-    return Line(";".join([line[0] for line in group]), group[0].step, "", tuple(spans))
+    return group[0] if len(group) == 1 else Line(";".join([line[0] for line in group]), group[0][1], "", tuple(group))

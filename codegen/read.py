@@ -117,20 +117,23 @@ def _first(alternatives: tuple[_Parts, ...], words: Callable[[str], str], each: 
 
 def _word(item: Any, name: str, setup: Setup) -> str:
     """The text of one field, or `_Absent`."""
-    field = fields_of(item)[name]
-    if not is_shown(item, name):
-        raise _Absent
-    value = getattr(item, name)
-    if field.empty(value):
-        if field.required:
-            return MISSING
-        raise _Absent
-    if isinstance(field, ListOf):
-        return field.joint.join(_sentence_of(row, setup) for row in value)
-    text = field.text(value, context_of(item, name, setup))
-    if not text:
+    text = _word_or_none(item, name, setup)
+    if text is None:
         raise _Absent
     return text
+
+
+def _word_or_none(item: Any, name: str, setup: Setup) -> str | None:
+    """The text of one field; None when it is empty or hidden."""
+    field = fields_of(item)[name]
+    if not is_shown(item, name):
+        return None
+    value = getattr(item, name)
+    if field.empty(value):
+        return MISSING if field.required else None
+    if isinstance(field, ListOf):
+        return field.joint.join(_sentence_of(row, setup) for row in value)
+    return field.text(value, context_of(item, name, setup)) or None
 
 
 def _axis_word(item: Any, name: str, setup: Setup, letter: str) -> str:
@@ -175,11 +178,17 @@ def _no_each(parts: _Parts) -> str:
 
 
 def _sentence_of(item: Any, setup: Setup) -> str:
-    return _filled(
-        _template(item.sentence),
-        lambda name: _word(item, name, setup),
-        lambda parts: _each_axis(item, parts, setup),
-    )
+    known: dict[str, str | None] = {}
+
+    def words(name: str) -> str:
+        if name not in known:
+            known[name] = _word_or_none(item, name, setup)
+        text = known[name]
+        if text is None:
+            raise _Absent
+        return text
+
+    return _filled(_template(item.sentence), words, lambda parts: _each_axis(item, parts, setup))
 
 
 def sentence(instruction: Instruction, setup: Setup) -> str:
