@@ -12,8 +12,8 @@ from app.cli.run import read_plants
 from app.cli.sources import DEFAULT_MODEL, said_of
 from codegen.models import model
 from device.simulator.eeprom import Eeprom, EepromUnreadable
-from device.simulator.server import serve
-from device.simulator.simulation import Simulation
+from device.simulator.lines import open_line
+from device.simulator.server import Served, serve
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1", "")
 ANY_PORT = "127.0.0.1:0"
@@ -60,13 +60,18 @@ def simulate(options: argparse.Namespace) -> int:
     if options.baud is not None and options.baud < 1:
         raise Failure("--baud must be greater than 0")
     eeprom = read_eeprom(options.eeprom)
-    simulation = Simulation(model(name), plants=read_plants(options.plant), eeprom=eeprom, baud=options.baud)
+    plants = read_plants(options.plant)
     tcp = None if options.pty else tcp_address(options.tcp)
     end_when_interrupted()
     try:
-        serve(simulation, pty=options.pty, tcp=tcp)
-    except KeyboardInterrupt:
-        return DONE
+        line = open_line(pty=options.pty, tcp=tcp)
     except OSError as problem:
         raise Failure(f"can not listen on {tcp or 'a pseudo-terminal'}: {problem.strerror}") from problem
+
+    def make() -> Served:
+        from device.simulator.simulation import Simulation
+
+        return Simulation(model(name), plants, eeprom, baud=options.baud, compiled=False)
+
+    serve(make, line)
     return DONE

@@ -1,17 +1,24 @@
-"""`python -m device.simulator`: a simulated controller in real time, on a socket or a pseudo-terminal."""
+"""`python -m device.simulator`: a simulated controller in real time, on a socket or a pseudo-terminal.
+
+The line is announced before the simulation is loaded; what a client sends meanwhile waits in it.
+"""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from codegen.models import MODELS, Model
 from device.simulator.eeprom import Eeprom, EepromUnreadable
-from device.simulator.plant import Plant
+from device.simulator.lines import open_line
 from device.simulator.server import serve
-from device.simulator.simulation import Simulation
+
+if TYPE_CHECKING:
+    from device.simulator.plant import Plant
+    from device.simulator.server import Served
 
 
 class Unusable(Exception):
@@ -35,8 +42,8 @@ def two_letter_models() -> list[str]:
     return [name for name, model in MODELS.items() if model.family != "smartmotor"]
 
 
-def simulation_of(options: argparse.Namespace, model: Model) -> Simulation:
-    """The simulation the options describe."""
+def maker_of(options: argparse.Namespace, model: Model) -> Callable[[], Served]:
+    """Reads the files the options name; the simulation itself is made later."""
     plants: Mapping[str, Plant] | None = None
     if options.plant:
         from device.simulator.plant_file import PlantUnreadable, load_plants
@@ -49,7 +56,21 @@ def simulation_of(options: argparse.Namespace, model: Model) -> Simulation:
         eeprom = Eeprom(options.eeprom)
     except EepromUnreadable as reason:
         raise Unusable(str(reason)) from reason
-    return Simulation(model, plants, eeprom, baud=options.baud, seed=options.seed, handshake=not options.no_handshake)
+
+    def make() -> Served:
+        from device.simulator.simulation import Simulation
+
+        return Simulation(
+            model,
+            plants,
+            eeprom,
+            baud=options.baud,
+            seed=options.seed,
+            compiled=False,
+            handshake=not options.no_handshake,
+        )
+
+    return make
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -61,15 +82,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"twoletter: no controller {options.controller}; {' '.join(two_letter_models())}", file=sys.stderr)
         return 2
     try:
-        simulation = simulation_of(options, MODELS[options.controller])
+        make = maker_of(options, MODELS[options.controller])
     except Unusable as reason:
         print(f"twoletter: {reason}", file=sys.stderr)
         return 2
     try:
-        serve(simulation, pty=options.pty, tcp=options.tcp, control=options.control)
+        line = open_line(pty=options.pty, tcp=options.tcp)
     except OSError as reason:
         print(f"twoletter: can not listen ({reason.strerror or reason})", file=sys.stderr)
         return 2
+    serve(make, line, control=options.control)
     return 0
 
 

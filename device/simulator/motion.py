@@ -10,8 +10,9 @@ import numpy
 from device.simulator.commutation import Commutation
 from device.simulator.following import Cam, Contour
 from device.simulator.kernel import angle, events, inputs, layout
-from device.simulator.kernel.compiled import Vector, as_state, loop_for
+from device.simulator.kernel.compiled import Vector, as_state
 from device.simulator.kernel.layout import State, axis_base
+from device.simulator.loops import SampleLoop, loop_for
 from device.simulator.mechanics import write_period, write_plant
 from device.simulator.moves import Moves
 from device.simulator.outside import Outside
@@ -41,7 +42,7 @@ class Motion(Moves, Outside):
 
     def __init__(self, axes: int, plants: Sequence[Plant] = (), *, seed: int = 0, compiled: bool | None = None) -> None:
         self.axes = axes
-        self._loop, self.compiled = loop_for(compiled)
+        self._loop = loop_for(compiled)
         self._array: Vector = numpy.zeros(layout.SIZE)
         self._state: State = as_state(self._array)
         self._parts = [layout.part(self._state, i) for i in range(axes)]
@@ -73,7 +74,16 @@ class Motion(Moves, Outside):
     # --- time -------------------------------------------------------------------------------------------------------
     def run(self, samples: int) -> int:
         """Runs up to `samples`; ends after the one in which an armed watch trips or a new event is raised."""
-        return int(self._loop(self._array, self._trace, samples))
+        return int(self._loop.run(self._array, self._trace, samples))
+
+    @property
+    def compiled(self) -> bool:
+        """The compiled loop runs; before it is ready the same source does as plain Python."""
+        return self._loop.compiled
+
+    def use(self, loop: SampleLoop) -> None:
+        """Another loop from the next run on."""
+        self._loop = loop
 
     @property
     def sample(self) -> int:

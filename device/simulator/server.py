@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
-import select
-import socket
 import sys
 import threading
 import time
 from collections import deque
-from typing import Final, Protocol, TextIO
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Final, Protocol, TextIO
 
-from device.simulator.simulation import Simulation
 from device.simulator.times import CHARACTER_BITS, TICKS
+
+if TYPE_CHECKING:
+    from device.simulator.lines import Line
+    from device.simulator.loops import SampleLoop
+    from device.simulator.motion import Motion
+    from device.simulator.uart import Uart
 
 SLICE_S: Final = 0.005
 FELL_BEHIND_S: Final = 0.5  # after that (a suspended computer) virtual time does not hurry to catch up
@@ -20,87 +24,24 @@ UNPACED_BYTES: Final = 4096
 RECORDS_KEPT: Final = 200  # newest messages and errors that `state` tells; a served controller runs for days
 
 
-class Line(Protocol):
-    """The host's end of port 1."""
+class Served(Protocol):
+    """What is served: one simulated controller, or a chain of them behind one line."""
 
-    address: str
-
-    def wait(self, seconds: float, *, want: bool) -> None: ...
-    def read(self, most: int) -> bytes: ...
-    def write(self, data: bytes) -> bool: ...
-    def close(self) -> None: ...
-
-
-class TcpLine:
-    """One client at a time; a newer one takes over, as a plug does."""
-
-    def __init__(self, address: str) -> None:
-        host, _, port = address.rpartition(":")
-        self._listener = socket.create_server((host or "127.0.0.1", int(port)))
-        self._listener.setblocking(False)
-        self._client: socket.socket | None = None
-        self._pending = bytearray()
-        name = self._listener.getsockname()
-        self.address = f"{name[0]}:{name[1]}"
-
-    def wait(self, seconds: float, *, want: bool) -> None:
-        """Until a client has something to say (when it is wanted), or the time is over."""
-        watched = [self._listener]
-        if want and self._client is not None:
-            watched.append(self._client)
-        readable, _, _ = select.select(watched, [], [], max(0.0, seconds))
-        if self._listener in readable:
-            self._accept()
-
-    def _accept(self) -> None:
-        try:
-            client, _ = self._listener.accept()
-        except OSError:  # it has gone again
-            return
-        self._drop()
-        client.setblocking(False)
-        client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        self._client = client
-
-    def _drop(self) -> None:
-        if self._client is not None:
-            self._client.close()
-        self._client = None
-        self._pending.clear()
-
-    def read(self, most: int) -> bytes:
-        if self._client is None:
-            return b""
-        try:
-            data = self._client.recv(most)
-        except BlockingIOError:
-            return b""
-        except OSError:
-            data = b""
-        if not data:
-            self._drop()
-        return data
-
-    def write(self, data: bytes) -> bool:
-        """Sends; False while the client does not take it."""
-        if self._client is None:
-            return True
-        self._pending += data
-        try:
-            if self._pending:
-                del self._pending[: self._client.send(self._pending)]
-        except BlockingIOError:
-            return False
-        except OSError:
-            self._drop()
-        return not self._pending
-
-    def close(self) -> None:
-        self._drop()
-        self._listener.close()
+    @property
+    def ticks(self) -> int: ...
+    @property
+    def port(self) -> Uart: ...
+    @property
+    def motions(self) -> Sequence[Motion]: ...
+    def advance(self, ticks: int) -> None: ...
+    def rest(self, records: int) -> None: ...
+    def receive(self, port: int, data: bytes) -> None: ...
+    def transmit(self, port: int) -> bytes: ...
+    def stimulus(self, signal: str, value: float | str) -> None: ...
+    def state(self) -> dict[str, Any]: ...
 
 
-def tell_tick(simulation: Simulation, began: float, first: int, now: float) -> int:
+def tell_tick(simulation: Served, began: float, first: int, now: float) -> int:
     """The tick that belongs to a moment of real time."""
     return first + int((now - began) * TICKS) - simulation.ticks
 
@@ -108,7 +49,7 @@ def tell_tick(simulation: Simulation, began: float, first: int, now: float) -> i
 class Server:
     """Keeps virtual time on real time by absolute deadlines, and carries bytes and control lines."""
 
-    def __init__(self, simulation: Simulation, line: Line, control: ControlLines | None = None) -> None:
+    def __init__(self, simulation: Served, line: Line, control: ControlLines | None = None) -> None:
         self.simulation = simulation
         self.line = line
         self.control = control
@@ -131,7 +72,7 @@ class Server:
         if data:
             self.simulation.receive(1, data)
         if self.control is not None:
-            self.control.carry_out(self.simulation, self.received())
+            self.control.carry_out(self.simulation, self.facts)
         self._send()
 
     def _deadline(self) -> float:
@@ -146,26 +87,33 @@ class Server:
         due = tell_tick(self.simulation, self._began, self._first, time.monotonic())
         if due > 0:
             self.simulation.advance(due)
-            self.simulation.unit.clock.catch_up(self.simulation.ticks)
+            self.simulation.rest(RECORDS_KEPT)
 
     def _most(self) -> int:
         """Characters the line can take now: two slices' worth, so that what the host still queues stays its own."""
-        uart = self.simulation.uarts[0]
+        uart = self.simulation.port
         if not uart.clear_to_send:
             return 0
         if uart.baud is None:
             return UNPACED_BYTES
         return 2 + int(2 * SLICE_S * uart.baud / CHARACTER_BITS) - len(uart.line)
 
-    def received(self) -> list[list[float]]:
-        """The last characters clocked in: moments of `time.monotonic()` and codes."""
-        history = self.simulation.uarts[0].history
-        return [[self._began + (tick - self._first) / TICKS, byte] for tick, byte in history]
+    def use(self, loop: SampleLoop) -> None:
+        """The compiled loop is ready."""
+        for motion in self.simulation.motions:
+            motion.use(loop)
+
+    def facts(self) -> dict[str, Any]:
+        """Beside the state: the last characters clocked in (`time.monotonic()`, code), and which loop runs."""
+        history = self.simulation.port.history
+        return {
+            "received": [[self._began + (tick - self._first) / TICKS, byte] for tick, byte in history],
+            "compiled": all(motion.compiled for motion in self.simulation.motions),
+        }
 
     def _send(self) -> None:
-        uart = self.simulation.uarts[0]
+        uart = self.simulation.port
         taken = self.line.write(self.simulation.transmit(1))
-        self.simulation.unit.records.keep(RECORDS_KEPT)
         if taken != uart.host_ready:
             uart.set_host_ready(taken, self.simulation.ticks)
 
@@ -185,14 +133,14 @@ class ControlLines:
             self._lines.append(line.strip())
         self.ended = True
 
-    def carry_out(self, simulation: Simulation, received: list[list[float]]) -> None:
+    def carry_out(self, simulation: Served, facts: Callable[[], dict[str, Any]]) -> None:
         """Everything that has been asked for."""
         while self._lines:
-            self._one(simulation, self._lines.popleft(), received)
+            self._one(simulation, self._lines.popleft(), facts)
 
-    def _one(self, simulation: Simulation, line: str, received: list[list[float]]) -> None:
+    def _one(self, simulation: Served, line: str, facts: Callable[[], dict[str, Any]]) -> None:
         if line == "state":
-            print(json.dumps({**simulation.state(), "received": received}), file=self._answers, flush=True)
+            print(json.dumps({**simulation.state(), **facts()}), file=self._answers, flush=True)
         elif line:
             signal, _, value = line.partition(",")
             try:
@@ -201,21 +149,19 @@ class ControlLines:
                 print(f"twoletter: {reason.args[0]}", file=sys.stderr, flush=True)
 
 
-def open_line(*, pty: bool, tcp: str | None) -> Line:
-    """The pseudo-terminal (not on Windows) or the socket."""
-    if pty:
-        from device.simulator.terminal_line import TerminalLine
-
-        return TerminalLine()
-    return TcpLine(tcp or "127.0.0.1:0")
-
-
-def serve(simulation: Simulation, *, pty: bool = False, tcp: str | None = None, control: bool = False) -> None:
-    """Serves until interrupted, or until standard input ends where it controls."""
-    line = open_line(pty=pty, tcp=tcp)
+def serve(make: Callable[[], Served], line: Line, *, control: bool = False) -> None:
+    """Announces the line, makes what is served, and serves it until interrupted or until standard input ends."""
     print(f"listening on {line.address}", flush=True)
     lines = ControlLines(sys.stdin, sys.stdout) if control else None
     try:
-        Server(simulation, line, lines).run()
+        from device.simulator.loops import Loading  # heavy, like what `make` loads: the line is announced before
+
+        server = Server(make(), line, lines)
+        loading = Loading(server.use)
+        loading.begin()
+        try:
+            server.run()
+        finally:
+            loading.end()
     except KeyboardInterrupt:
         line.close()

@@ -83,7 +83,22 @@ class Simulation:
                 self.interpreter.advance(min(limit, self.ticks + self.unit.clock.period))
         return "time"
 
+    def rest(self, records: int) -> None:
+        """Between two slices of real time: the motion is brought up to now, old records are forgotten."""
+        self.unit.clock.catch_up(self.ticks)
+        self.unit.records.keep(records)
+
     # ------------------------------------------------------------------- bytes
+
+    @property
+    def port(self) -> Uart:
+        """Port 1: the host's line."""
+        return self.uarts[0]
+
+    @property
+    def motions(self) -> tuple[Motion]:
+        """All the motion there is."""
+        return (self.motion,)
 
     def receive(self, port: int, data: bytes) -> None:
         """Characters handed to the line of a port now."""

@@ -167,15 +167,3 @@ def compiled_loop() -> Loop:
     finally:
         settings.CACHE_DIR = before
     return compiled
-
-
-def loop_for(compiled: bool | None) -> tuple[Loop, bool]:
-    """The loop and whether it is compiled; `None` takes the compiled one when it can be had."""
-    if compiled is False:
-        return plain_loop(), False
-    try:
-        return compiled_loop(), True
-    except CompilerMissing:
-        if compiled:
-            raise
-        return plain_loop(), False

@@ -31,6 +31,14 @@ def until(client: socket.socket, end: bytes) -> bytes:
     return data
 
 
+def when_settled(simulator: SimulatorProcess) -> None:
+    """It has started, and loads nothing any more."""
+    give_up = time.monotonic() + 120
+    while not simulator.state()["compiled"]:
+        assert time.monotonic() < give_up
+        time.sleep(0.05)
+
+
 def test_commands_over_a_socket() -> None:
     with SimulatorProcess("ssc4") as simulator:
         client = connect(simulator.address)
@@ -75,6 +83,7 @@ def test_a_paced_pseudo_terminal() -> None:
     import select
 
     with SimulatorProcess("ssc4", pty=True, baud=1200) as simulator:
+        when_settled(simulator)
         terminal = os.open(simulator.address, os.O_RDWR | os.O_NOCTTY)
         os.write(terminal, b"TPX\r")
         began, data = time.monotonic(), b""
@@ -127,6 +136,7 @@ def test_an_idle_controller_costs_little() -> None:
         client = connect(simulator.address)
         client.sendall(b"\r")
         until(client, b":")
+        when_settled(simulator)
         before, began = used(simulator.pid), time.monotonic()
         client.sendall(b"WT 3072\r")  # three seconds
         until(client, b":")
