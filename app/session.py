@@ -107,14 +107,18 @@ class Session(QObject):
     # ---- editing
 
     def insert(
-        self, instructions: Sequence[Instruction], before: str | None = None, section: Section | None = None
+        self,
+        instructions: Sequence[Instruction],
+        before: str | None = None,
+        section: Section | None = None,
+        note: str = "",
     ) -> tuple[str, ...]:
         """Adds new steps where new steps go, or in front of a step; gives their ids."""
         program = self.document.program
         ids: list[str] = []
         at: Place | None = None
         for instruction in instructions:
-            step = fresh(program, instruction)
+            step = fresh(program, instruction, note=note)
             at = Place(at.parent, at.index + 1) if at is not None else self.next_place(instruction, before, section)
             program = insert(program, [step], at)
             ids.append(step.id)
@@ -122,19 +126,19 @@ class Session(QObject):
         self._follow_insertion(ids)
         return tuple(ids)
 
-    def insert_at(self, instruction: Instruction, place: Place) -> str:
+    def insert_at(self, instruction: Instruction, place: Place, note: str = "") -> str:
         """Adds one new step at a place of the tree."""
-        step = fresh(self.document.program, instruction)
+        step = fresh(self.document.program, instruction, note=note)
         self._push_program(insert(self.document.program, [step], place), f"Add {instruction.title}")
         self._follow_insertion([step.id])
         return step.id
 
-    def replace(self, step_id: str, instruction: Instruction, key: str | None = None) -> None:
+    def replace(self, step_id: str, instruction: Instruction, key: str | None = None, note: str | None = None) -> None:
         """Gives a step another instruction; changes with the same key shortly after another are undone as one."""
         step = find(self.document.program, step_id)
-        if step.instruction != instruction:
-            new = replace(self.document.program, dc.replace(step, instruction=instruction))
-            self._push_program(new, f"Change {instruction.title}", key)
+        new = dc.replace(step, instruction=instruction, note=step.note if note is None else note)
+        if new != step:
+            self._push_program(replace(self.document.program, new), f"Change {instruction.title}", key)
 
     def set_note(self, step_id: str, note: str) -> None:
         """The person's own comment on a step."""

@@ -7,14 +7,26 @@ from typing import Any
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QApplication, QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+SPACE = 8  # between a field that says nothing and the next one, px
+
 
 class Cell(QWidget):
-    """An editor with its unit, its counts in a quiet tone and its problem; `wide` puts them in one line."""
+    """An editor with its unit, its counts in a quiet tone and its problem; `wide` puts unit and counts in one line.
+
+    A cell that `speaks` keeps a line free for its message, so that nothing moves while it is typed into.
+    """
 
     changed = Signal(object)
 
     def __init__(
-        self, editor: QWidget, name: str, help_text: str, *, wide: bool, parent: QWidget | None = None
+        self,
+        editor: QWidget,
+        name: str,
+        help_text: str,
+        *,
+        wide: bool,
+        speaks: bool = True,
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.editor: Any = editor
@@ -23,9 +35,17 @@ class Cell(QWidget):
         self.counts.setProperty("role", "quiet")
         self.problem = QLabel()
         self.problem.setProperty("role", "warning")
-        self.problem.setWordWrap(True)
-        self.problem.setMinimumWidth(120)
+        for label in (self.counts, self.problem):
+            label.setWordWrap(True)
+            label.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
+            label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # never widens the field
+            label.hide()
         name_focusable(editor, name, help_text)
+        self._lay_out(editor, wide=wide, foot=self.fontMetrics().height() + 2 if speaks else SPACE)
+        self.editor.changed.connect(self.changed)
+        self._name = name
+
+    def _lay_out(self, editor: QWidget, *, wide: bool, foot: int) -> None:
         top = QHBoxLayout()
         top.setContentsMargins(0, 0, 0, 0)
         top.setSpacing(8)
@@ -33,21 +53,25 @@ class Cell(QWidget):
         stretches = policy == QSizePolicy.Policy.Expanding and editor.maximumWidth() > editor.minimumWidth()
         top.addWidget(editor, 1 if stretches else 0)
         top.addWidget(self.unit)
-        if wide:
-            top.addWidget(self.counts)
+        if wide and not stretches:
+            self.counts.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+            top.addWidget(self.counts, 1)
         if not stretches:
-            top.addStretch(1)
+            top.addStretch(0 if wide else 1)
+        below = QWidget()
+        below.setMinimumHeight(foot)
+        lines = QVBoxLayout(below)
+        lines.setContentsMargins(0, 0, 0, 4 if foot > SPACE else 0)
+        lines.setSpacing(0)
+        if not wide or stretches:
+            lines.addWidget(self.counts)
+        lines.addWidget(self.problem)
+        lines.addStretch(1)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(2)
+        whole.setSpacing(0)
         whole.addLayout(top)
-        if not wide:
-            whole.addWidget(self.counts)
-        whole.addWidget(self.problem)
-        self.problem.hide()
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.editor.changed.connect(self.changed)
-        self._name = name
+        whole.addWidget(below)
 
     def show_facts(self, unit: str, counts: str, warning: str | None, problem: str | None) -> None:
         """Shows unit and counts, and the problem sentence instead of the counts while there is one."""
@@ -63,6 +87,7 @@ class Cell(QWidget):
 def _say(label: QLabel, text: str) -> None:
     if label.text() != text:
         label.setText(text)
+        label.setMinimumWidth(label.minimumSizeHint().width())  # the longest word
     label.setVisible(bool(text))
 
 

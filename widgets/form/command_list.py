@@ -41,13 +41,13 @@ class CommandList(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         for widget in (self.search, self.list, self.about):
             column.addWidget(widget)
-        self.setMinimumWidth(280)
         family = model(offers.setup.model).family
         for name, row in COMMANDS.items():
             if row.program and family in row.families:
                 item = QListWidgetItem(f"{name}   {row.title}")
                 item.setData(NAME, name)
                 self.list.addItem(item)
+        self.list.setMinimumWidth(self.list.sizeHintForColumn(0) + 24)  # and a scroll bar
 
     def show_instruction(self, instruction: Instruction) -> None:
         """The list does not depend on what is typed."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDialog,
     QFrame,
     QHBoxLayout,
     QLabel,
+    QLineEdit,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -18,8 +19,11 @@ from codegen.instructions import Group, Instruction
 from widgets.form.buttons import Buttons
 from widgets.form.form import InstructionForm
 from widgets.form.offers import Offers
+from widgets.form.room import keep_on_screen, room, settle
 from widgets.parts.look import look
 
+LEAST_WIDTH = 520  # px
+BAR = 14  # width of a scroll bar, px (theme.toml)
 SECTION_WORDS = {"configuration": "Configuration", "main": "Main"}
 
 
@@ -48,10 +52,12 @@ class InstructionDialog(QDialog):
         new: bool,
         where: str = "",
         section: str = "",
+        note: str = "",
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.new = new
+        self._fitting = False
         self.setModal(False)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(instruction.title if new else f"Change: {instruction.title}")
@@ -59,11 +65,11 @@ class InstructionDialog(QDialog):
         self.form = InstructionForm(offers)
         self.section = SectionButtons()
         self.section.choose([section or usual_section(instruction)])
+        self.note = note_line(note)
         self.buttons = self._buttons()
         self._lay_out(instruction, where)
-        self.form.edited.connect(lambda _: self._refresh())
+        self.form.refreshed.connect(self._refresh)
         self.form.show_instruction(instruction)
-        self._refresh()
         self.form.fields.focus_first()
 
     # ---- looks
@@ -94,15 +100,16 @@ class InstructionDialog(QDialog):
         heading.setSpacing(12)
         heading.addWidget(bar)
         heading.addLayout(words, 1)
-        column = QVBoxLayout(self)
+        self.column = column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
-        column.setSpacing(12)
+        column.setSpacing(8)
         column.addLayout(heading)
         if self.new and instruction.section == "C/M":
             column.addLayout(self._section_row())
         column.addWidget(self.form, 1)
+        column.addWidget(self.note)
         column.addLayout(self._button_row())
-        self.setMinimumWidth(520)
+        self.form.area.content_changed.connect(self.fit)
 
     def _section_row(self) -> QHBoxLayout:
         row = QHBoxLayout()
@@ -140,6 +147,47 @@ class InstructionDialog(QDialog):
                 row.addWidget(button)
         return row
 
+    # ---- size
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Only once it is styled is it known how large it is."""
+        self._fit(QSize(LEAST_WIDTH, 0))
+        super().showEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        """What stands around the fields may grow too."""
+        done = super().event(event)
+        if event.type() == QEvent.Type.LayoutRequest and self.isVisible():
+            self.fit()
+        return done
+
+    def fit(self) -> None:
+        """Large enough to show everything, as far as the screen allows; never smaller than it is."""
+        if self.isVisible() and not self._fitting:
+            self._fit(self.size())
+            keep_on_screen(self)
+
+    def _fit(self, present: QSize) -> None:
+        self._fitting = True
+        settle(self)
+        limit, sides, area = room(self), self.column.contentsMargins(), self.form.area
+        around = sides.left() + sides.right()
+        least = max(self.column.minimumSize().width(), area.least_width() + around)
+        width = min(max(present.width(), least), limit.width())
+        fields = area.height_for(width - around)
+        high = self._ask_for_height(fields, width)
+        if high > limit.height():
+            width = min(max(width, least + BAR), limit.width())
+            high = self._ask_for_height(fields - (high - limit.height()), width)
+        self.resize(width, max(present.height(), min(high, limit.height())))
+        self._fitting = False
+
+    def _ask_for_height(self, height: int, width: int) -> int:
+        """Gives the fields a height; the height the whole dialog then has."""
+        self.form.ask_for_height(height)
+        settle(self)
+        return self.column.totalHeightForWidth(width)
+
     # ---- what happens
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -152,8 +200,7 @@ class InstructionDialog(QDialog):
 
     def show_offers(self, offers: Offers) -> None:
         """Follows the document: other units, other names."""
-        self.form.offers = offers
-        self.form.fields.offers = offers
+        self.form.show_offers(offers)
 
     def _refresh(self) -> None:
         problem = self.form.problem()
@@ -176,9 +223,19 @@ class InstructionDialog(QDialog):
         section = self.section.chosen()[0] if self.form.instruction.section == "C/M" else ""
         self.added.emit(self.form.instruction, section, stay)
         if stay:
+            self.note.clear()
             self.form.fields.focus_first()
         else:
             self.accept()
+
+
+def note_line(text: str = "") -> QLineEdit:
+    """The person's own comment on a step."""
+    line = QLineEdit(text)
+    line.setPlaceholderText("Note: why this step is here")
+    line.setAccessibleName("Note")
+    line.setMinimumHeight(look().control)
+    return line
 
 
 def usual_section(instruction: Instruction) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QComboBox,
     QLineEdit,
     QPlainTextEdit,
+    QSizePolicy,
     QToolButton,
     QWidget,
 )
@@ -67,6 +68,10 @@ class LineEditor(QLineEdit):
             return
         super().keyPressEvent(event)
 
+    def show_offers(self, offers: Offers) -> None:
+        """Other names for the expression menu."""
+        self.offers = offers
+
     def build(self) -> None:
         """Offers what an expression is made of; the choice is put in at the cursor."""
         menu = ExpressionMenu(self.offers, self)
@@ -102,6 +107,10 @@ class ExpressionEditor(QWidget):
         row_of(self, self.line, button)
         self.line.changed.connect(self.changed)
 
+    def show_offers(self, offers: Offers) -> None:
+        """Other names for the expression menu."""
+        self.line.show_offers(offers)
+
     def focus_target(self) -> LineEditor:
         """The line takes the cursor."""
         return self.line
@@ -126,6 +135,7 @@ class TextArea(QPlainTextEdit):
         self.setMinimumWidth(240)
         if isinstance(field, fields.Code):
             self.setFont(look().code_font())
+            self.setFixedHeight(look().control * 7)
         self.textChanged.connect(lambda: self.changed.emit(self.toPlainText()))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -206,6 +216,7 @@ class ComboEditor(QComboBox):
         self.setMinimumHeight(look().control)
         self.setMinimumContentsLength(10)
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)  # never narrower than its words
         self.keys = [key for key, _ in choices]
         self.addItems([words for _, words in choices])
         self.activated.connect(lambda _: self.changed.emit(self.value()))
@@ -223,16 +234,30 @@ class NameEditor(QComboBox):
 
     changed = Signal(object)
 
-    def __init__(self, names: Sequence[str], parent: QWidget | None = None) -> None:
+    def __init__(
+        self, names_of: Callable[[Offers], Sequence[str]], offers: Offers, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
+        self.names_of = names_of
         self.setEditable(True)
         self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.setMinimumHeight(look().control)
         self.setMinimumWidth(160)
-        self.addItems(list(names))
+        self.addItems(list(names_of(offers)))
         self.setCurrentIndex(-1)
         self.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.editTextChanged.connect(lambda text: self.changed.emit(text))
+
+    def show_offers(self, offers: Offers) -> None:
+        """The names there are now; what was typed stays."""
+        names, text = list(self.names_of(offers)), self.currentText()
+        if names != [self.itemText(index) for index in range(self.count())]:
+            self.blockSignals(True)
+            self.clear()
+            self.addItems(names)
+            self.setCurrentIndex(-1)
+            self.setEditText(text)
+            self.blockSignals(False)
 
     def value(self) -> str:
         return self.currentText()
@@ -278,8 +303,16 @@ def choice(field: fields.Choice, offers: Offers) -> QWidget:
 
 
 def choice_list(field: fields.Choice) -> ComboEditor:
-    """A choice as a list, where there is little room."""
+    """A choice as a list."""
     return ComboEditor([(key, words_of(field, key)) for key in field.kind])
+
+
+def in_little_room(editor: QWidget) -> QWidget:
+    """A list there may be narrower than its longest entry; the tool tip of the list says it whole."""
+    for box in (editor, *editor.findChildren(QComboBox)):
+        if isinstance(box, QComboBox):
+            box.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+    return editor
 
 
 def optional_choice(field: fields.Choice, offers: Offers) -> QWidget:
@@ -297,6 +330,14 @@ def channels(names: Sequence[str], count: int) -> list[str]:
     return [names[number] if number < len(names) and names[number] else str(number + 1) for number in range(count)]
 
 
+def _inputs(offers: Offers) -> list[str]:
+    return channels(offers.setup.input_names, offers.setup.inputs)
+
+
+def _outputs(offers: Offers) -> list[str]:
+    return channels(offers.setup.output_names, offers.setup.outputs)
+
+
 class Capitals(QValidator):
     """Turns what is typed into capitals."""
 
@@ -306,7 +347,7 @@ class Capitals(QValidator):
 
 def label_name(field: fields.LabelName, offers: Offers) -> QWidget:
     """A new label is typed; one to go to is picked from those of the program; both in capitals."""
-    editor = LineEditor(field, offers) if field.defines else NameEditor(offers.labels)
+    editor = LineEditor(field, offers) if field.defines else NameEditor(lambda now: now.labels, offers)
     editor.setValidator(Capitals(editor))
     return editor
 
@@ -325,9 +366,9 @@ EDITORS: dict[type[fields.Field], Any] = {
     fields.MessageText: LineEditor,
     fields.Code: TextArea,
     fields.LabelName: label_name,
-    fields.VariableName: lambda field, offers: NameEditor(offers.variables),
-    fields.InputNumber: lambda field, offers: NameEditor(channels(offers.setup.input_names, offers.setup.inputs)),
-    fields.OutputNumber: lambda field, offers: NameEditor(channels(offers.setup.output_names, offers.setup.outputs)),
+    fields.VariableName: lambda field, offers: NameEditor(lambda now: now.variables, offers),
+    fields.InputNumber: lambda field, offers: NameEditor(_inputs, offers),
+    fields.OutputNumber: lambda field, offers: NameEditor(_outputs, offers),
 }
 
 AXIS_EDITORS: dict[type[fields.Field], Any] = {fields.Flag: optional_flag, fields.Choice: optional_choice}

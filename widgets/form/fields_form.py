@@ -13,11 +13,13 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
-from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list, maker_for
+from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list, in_little_room, maker_for
 from widgets.form.offers import Offers
 from widgets.form.rows import RowsEditor
 from widgets.parts.look import look
 
+SILENT = (fields.Flag, fields.Choice, fields.AxisName, fields.ListOf)  # seldom wrong: no line is kept free
+COLUMNS = 3  # of a table of axes
 Key = tuple[str, str]  # field name, axis letter ("" for a field that is not per axis)
 
 
@@ -33,6 +35,7 @@ class FieldsForm(QWidget):
         self.item: Any = None
         self.cells: dict[Key, Cell] = {}
         self.labels: dict[str, list[QWidget]] = {}
+        self.letters: list[tuple[QLabel, str, tuple[str, ...]]] = []  # before a row of these fields
         self.column = QVBoxLayout(self)
         self.column.setContentsMargins(0, 0, 0, 0)
         self.inside = QWidget()
@@ -50,18 +53,34 @@ class FieldsForm(QWidget):
             cell.editor.setValue(_part(getattr(item, name), axis))
         self.refresh()
 
+    def show_offers(self, offers: Offers) -> None:
+        """Other names in the lists; another machine builds the form anew."""
+        before, self.offers = self.offers, offers
+        if self.item is None:
+            return
+        if offers.setup != before.setup:
+            item, self.item = self.item, None
+            self.show_item(item)
+            return
+        for cell in self.cells.values():
+            follow = getattr(cell.editor, "show_offers", None)
+            if follow is not None:
+                follow(offers)
+
     def refresh(self) -> None:
         """Shows and hides fields, and tells units, counts and problems as they are now."""
         for name, widgets in self.labels.items():
             visible = read.shown(self.item, name)
             for widget in widgets:
                 widget.setVisible(visible)
+        for axis, letter, names in self.letters:
+            axis.setVisible(any(self.is_shown(name, letter) for name in names))
         for key, cell in self.cells.items():
             self._refresh_cell(key, cell)
 
     def _refresh_cell(self, key: Key, cell: Cell) -> None:
         name, axis = key
-        visible = read.shown(self.item, name)
+        visible = self.is_shown(name, axis)
         cell.setVisible(visible)
         if not visible:
             return
@@ -76,9 +95,21 @@ class FieldsForm(QWidget):
             problem,
         )
 
+    def is_shown(self, name: str, axis: str = "") -> bool:
+        """Whether a field counts now; of the axes, those that take part and those that have a value."""
+        if not read.shown(self.item, name):
+            return False
+        return not axis or axis in self._axes() or bool(_part(getattr(self.item, name), axis))
+
+    def _axes(self) -> str:
+        """The axes that take part: those the instruction names, else all."""
+        named = fields.fields_of(self.item).get("axes")
+        chosen: str = self.item.axes if isinstance(named, fields.AxisSet) else ""
+        return chosen or self.offers.setup.letters
+
     def focus_first(self) -> None:
         """Puts the cursor into the first field that has a problem, else into the first one."""
-        shown = [(key, cell) for key, cell in self.cells.items() if read.shown(self.item, key[0])]
+        shown = [(key, cell) for key, cell in self.cells.items() if self.is_shown(*key)]
         wrong = [cell for (name, axis), cell in shown if read.problem_of(self.item, name, self.offers.setup, axis)]
         for cell in wrong or [cell for _, cell in shown]:
             focus_in(cell.editor)
@@ -90,14 +121,15 @@ class FieldsForm(QWidget):
         old, self.inside = self.inside, QWidget()
         self.cells.clear()
         self.labels.clear()
+        self.letters.clear()
         self.grid = QGridLayout(self.inside)
         self.grid.setContentsMargins(0, 0, 0, 0)
         self.grid.setHorizontalSpacing(12)
-        self.grid.setVerticalSpacing(8)
+        self.grid.setVerticalSpacing(0)
         row = 0
-        for per_axis, group in groupby(fields.fields_of(self.item).items(), key=_table_key):
-            members = dict(group)
-            row = self._add_table(members, row) if per_axis is not None else self._add_rows(members, row)
+        for per_axis, members in _groups(fields.fields_of(self.item)):
+            add = self._add_rows if not per_axis else self._add_list if self.narrow else self._add_table
+            row = add(members, row)
         self.grid.setRowStretch(row, 1)
         self.grid.setColumnStretch(5, 1)
         self.column.addWidget(self.inside)
@@ -140,27 +172,50 @@ class FieldsForm(QWidget):
     def _add_table(self, members: Mapping[str, fields.Field], row: int) -> int:
         """Values of several axes: one row for each axis, one column for each field."""
         for column, (name, field) in enumerate(members.items(), start=1):
-            heading = QLabel(field.label)
-            heading.setToolTip(field.help)
-            self.grid.addWidget(heading, row, column)
-            self.labels[name] = [heading]
-        letters = []
-        for offset, letter in enumerate(self.offers.setup.letters, start=1):
-            axis = QLabel(letter)
-            axis.setProperty("role", "title")
-            axis.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignRight)
-            axis.setContentsMargins(0, 6, 0, 0)
-            letters.append(axis)
-            self.grid.addWidget(axis, row + offset, 0)
+            self.labels[name] = [self._heading(field)]
+            self.grid.addWidget(self.labels[name][0], row, column)
+        for letter in self.offers.setup.letters:
+            row += 1
+            self._letter(letter, tuple(members), row)
             for column, (name, field) in enumerate(members.items(), start=1):
                 editor = make_axis_editor(field, self.offers)
                 cell = self._cell(name, letter, field, editor, f"{field.label} {letter}", wide=False)
-                self.grid.addWidget(cell, row + offset, column, Qt.AlignmentFlag.AlignTop)
-        self.labels[next(iter(members))] += letters
-        return row + 1 + len(letters)
+                self.grid.addWidget(cell, row, column, Qt.AlignmentFlag.AlignTop)
+        return row + 1
+
+    def _add_list(self, members: Mapping[str, fields.Field], row: int) -> int:
+        """Values of several axes where there is little room: one field after the other, its axes below each other."""
+        for name, field in members.items():
+            self.labels[name] = [self._heading(field)]
+            self.grid.addWidget(self.labels[name][0], row, 0, 1, 6)
+            for letter in self.offers.setup.letters:
+                row += 1
+                self._letter(letter, (name,), row)
+                editor = make_axis_editor(field, self.offers, narrow=True)
+                cell = self._cell(name, letter, field, editor, f"{field.label} {letter}", wide=False)
+                self.grid.addWidget(cell, row, 1, 1, 5, Qt.AlignmentFlag.AlignTop)
+            row += 1
+        return row
+
+    def _heading(self, field: fields.Field) -> QLabel:
+        """The words above the values of several axes."""
+        heading = QLabel(field.label)
+        heading.setToolTip(field.help)
+        heading.setContentsMargins(0, 0, 0, 4)
+        return heading
+
+    def _letter(self, letter: str, names: tuple[str, ...], row: int) -> None:
+        """The letter before the values of one axis."""
+        axis = QLabel(letter)
+        axis.setProperty("role", "title")
+        axis.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignRight)
+        axis.setContentsMargins(0, 6, 0, 0)
+        self.letters.append((axis, letter, names))
+        self.grid.addWidget(axis, row, 0)
 
     def _cell(self, name: str, axis: str, field: fields.Field, editor: QWidget, words: str, *, wide: bool) -> Cell:
-        cell = Cell(editor, words, field.help, wide=wide, parent=self.inside)
+        speaks = not isinstance(field, SILENT) and not isinstance(getattr(field, "of", None), SILENT)
+        cell = Cell(editor, words, field.help, wide=wide, speaks=speaks, parent=self.inside)
         cell.changed.connect(lambda value: self._changed(name, axis, value))
         self.cells[name, axis] = cell
         return cell
@@ -188,23 +243,29 @@ def make_editor(field: fields.Field, offers: Offers, *, narrow: bool = False) ->
     if isinstance(field, fields.ListOf):
         return RowsEditor(field, offers, lambda offers: FieldsForm(offers, narrow=narrow), narrow=narrow)
     if narrow and isinstance(field, fields.Choice):
-        return choice_list(field)
+        return in_little_room(choice_list(field))
     editor: QWidget = maker_for(field, EDITORS)(field, offers)
-    return editor
+    return in_little_room(editor) if narrow else editor
 
 
-def make_axis_editor(field: fields.Field, offers: Offers) -> QWidget:
+def make_axis_editor(field: fields.Field, offers: Offers, *, narrow: bool = False) -> QWidget:
     """The editor for one axis of a per-axis field; it can be left empty."""
     inner = field.of if isinstance(field, fields.PerAxis) else field
     make = maker_for(inner, AXIS_EDITORS) or maker_for(inner, EDITORS)
     editor: QWidget = make(inner, offers)
-    return editor
+    return in_little_room(editor) if narrow else editor
 
 
-def _table_key(item: tuple[str, fields.Field]) -> str | None:
-    """Neighbouring per-axis fields that are shown together share a table."""
-    field = item[1]
-    return repr(sorted(field.when.items())) if isinstance(field, fields.PerAxis) else None
+def _groups(members: Mapping[str, fields.Field]) -> Iterator[tuple[bool, dict[str, fields.Field]]]:
+    """The fields in the order of the form: up to three per-axis fields share one table, where the first stands."""
+    tables = [name for name, field in members.items() if isinstance(field, fields.PerAxis)]
+    if 1 < len(tables) <= COLUMNS:
+        at = list(members).index(tables[0])
+        others = [name for name in members if name not in tables]
+        before = [name for name in others if list(members).index(name) < at]
+        members = {name: members[name] for name in (*before, *tables, *others[len(before) :])}
+    for per_axis, group in groupby(members.items(), key=lambda item: isinstance(item[1], fields.PerAxis)):
+        yield per_axis, dict(group)
 
 
 def _part(value: Any, axis: str) -> Any:

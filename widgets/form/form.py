@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from codegen import read
 from codegen.generate import code, compiled
@@ -16,14 +15,63 @@ from widgets.form.offers import Offers
 from widgets.form.pictures import PICTURES
 from widgets.form.preview import Preview
 
-HIGHEST, WIDEST = 460, 860  # pixels a dialog may ask for its fields: fits 1280 x 800
-SPARE = 24  # one line of text
+LEAST = 48  # height below which fields are not pressed together, px
+
+
+class FieldsArea(QScrollArea):
+    """Room for the fields; says when they need another size."""
+
+    content_changed = Signal()
+
+    def __init__(self, inside: QWidget) -> None:
+        super().__init__()
+        self.inside = inside
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
+        self.setWidget(inside)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Fields came, went, or say more than before."""
+        done = super().eventFilter(watched, event)
+        if event.type() == QEvent.Type.LayoutRequest:
+            self.content_changed.emit()
+        return done
+
+    def sizeHint(self) -> QSize:
+        """Not more than was asked for."""
+        return self.minimumSize() if self.minimumHeight() else super().sizeHint()
+
+    def minimumSizeHint(self) -> QSize:
+        """As little."""
+        return self.minimumSize() if self.minimumHeight() else super().minimumSizeHint()
+
+    def least_width(self) -> int:
+        """Narrower, something would be cut."""
+        return self.inside.minimumSizeHint().width()
+
+    def scrolls(self) -> bool:
+        """Whether a part of the fields is out of sight."""
+        return self.inside.height() > self.viewport().height() or self.inside.width() > self.viewport().width()
+
+    def height_for(self, width: int) -> int:
+        """How high all fields are at a width."""
+        layout = self.inside.layout()
+        wrapped = layout.totalHeightForWidth(width) if layout is not None and layout.hasHeightForWidth() else 0
+        return max(wrapped, self.inside.minimumSizeHint().height())
+
+    def ask_for(self, size: QSize) -> None:
+        """Nothing scrolls from this size on."""
+        if size != self.minimumSize():
+            self.setMinimumSize(size)
 
 
 class InstructionForm(QWidget):
     """Emits the edited instruction; `problem` says why it is not right yet."""
 
     edited = Signal(object)
+    refreshed = Signal()  # whatever is shown now, problems and all
 
     def __init__(self, offers: Offers, *, grows: bool = True, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -39,23 +87,16 @@ class InstructionForm(QWidget):
         self._beside.setSpacing(16)
         self._beside.addWidget(self.fields, 1)
         inside = QWidget()
-        inside.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         column = QVBoxLayout(inside)
-        column.setContentsMargins(0, 0, 8, 0)
+        column.setContentsMargins(2, 0, 2, 0)
         column.addWidget(self.nothing)
         column.addLayout(self._beside)
         column.addStretch(1)
-        self.scroll = QScrollArea()
-        self.scroll.setWidgetResizable(True)
-        self.scroll.setFrameShape(QFrame.Shape.NoFrame)
-        self.scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
-        self.scroll.setWidget(inside)
-        self.scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._inside = inside
+        self.area = FieldsArea(inside)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(8)
-        whole.addWidget(self.scroll, 1)
+        whole.addWidget(self.area, 1)
         whole.addWidget(self.preview)
 
     @property
@@ -76,7 +117,18 @@ class InstructionForm(QWidget):
             self._show_picture(instruction)
             self.nothing.setVisible(not self.fields.cells)
             self.setProperty("helpPage", instruction.title)
-            self._fit()
+        self._refresh()
+
+    def show_offers(self, offers: Offers) -> None:
+        """Follows the document: other units, other names."""
+        before, self.offers = self.offers, offers
+        if offers == before:
+            return
+        self.fields.show_offers(offers)
+        if self.fields.item is None:
+            return
+        if offers.setup.model != before.setup.model:
+            self._show_picture(self.instruction)
         self._refresh()
 
     def _edited(self, instruction: Instruction) -> None:
@@ -88,6 +140,7 @@ class InstructionForm(QWidget):
         self.preview.show_words(read.sentence(self.instruction, setup), code(self.instruction, setup), self.problem())
         if self.picture is not None:
             self.picture.show_instruction(self.instruction)  # type: ignore[attr-defined]
+        self.refreshed.emit()
 
     def _show_picture(self, instruction: Instruction) -> None:
         if self.picture is not None:
@@ -108,19 +161,6 @@ class InstructionForm(QWidget):
         editor.changed.emit(editor.value())
         focus_in(editor)
 
-    def showEvent(self, event: QShowEvent) -> None:
-        """Only once it is styled is it known how high the fields are."""
-        super().showEvent(event)
-        self._fit()
-
-    def _fit(self) -> None:
-        """High enough to show all fields, and one more problem, without scrolling; as far as the screen allows."""
-        if not self.grows:
-            return
-        self._inside.ensurePolished()
-        layout = self._inside.layout()
-        if layout is not None:
-            layout.activate()
-        wanted = self._inside.sizeHint()
-        self.scroll.setMinimumHeight(min(wanted.height() + SPARE, HIGHEST))
-        self.scroll.setMinimumWidth(min(wanted.width() + 24, WIDEST))
+    def ask_for_height(self, height: int) -> None:
+        """The fields get this height; a narrow form takes what there is."""
+        self.area.ask_for(QSize(0, max(LEAST if self.fields.cells else 0, height)))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QLabel, QLineEdit, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from codegen.instructions import Instruction
 from codegen.program import Step
+from widgets.form.dialog import note_line
 from widgets.form.form import InstructionForm
 from widgets.form.offers import Offers
-from widgets.parts.look import look
 
 
 class Inspector(QWidget):
@@ -24,20 +24,17 @@ class Inspector(QWidget):
     def __init__(self, offers: Offers, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName("Inspector")
-        self.offers = offers
         self.step: Step | None = None
         self.heading = QLabel()
         self.heading.setProperty("role", "title")
         self.empty = QLabel("Select one step of the program to change it here.")
         self.empty.setProperty("role", "quiet")
         self.empty.setWordWrap(True)
-        self.note = QLineEdit()
-        self.note.setPlaceholderText("Note: why this step is here")
-        self.note.setAccessibleName("Note")
-        self.note.setMinimumHeight(look().control)
+        self.note = note_line()
         self.note.textEdited.connect(self._noted)
         self.note.hide()
-        self.form = self._new_form()
+        self.form = InstructionForm(offers, grows=False)
+        self.form.edited.connect(self._edited)
         self.stack = QStackedWidget()
         self.stack.addWidget(self.empty)
         self.stack.addWidget(self.form)
@@ -63,10 +60,7 @@ class Inspector(QWidget):
 
     def show_step(self, step: Step, offers: Offers) -> None:
         """Shows `step`."""
-        if offers.setup != self.offers.setup:
-            self._rebuild(offers)
-        self.offers = offers
-        self.form.offers = self.form.fields.offers = offers
+        self.form.show_offers(offers)
         self.step = step
         self.heading.show()
         self.note.show()
@@ -84,16 +78,3 @@ class Inspector(QWidget):
     def _edited(self, instruction: Instruction) -> None:
         if self.step is not None:
             self.edited.emit(self.step.id, instruction, f"inspector {self.step.id}")
-
-    def _new_form(self) -> InstructionForm:
-        form = InstructionForm(self.offers, grows=False)
-        form.edited.connect(self._edited)
-        return form
-
-    def _rebuild(self, offers: Offers) -> None:
-        """Other axes or units: the form is built anew."""
-        self.offers = offers
-        old, self.form = self.form, self._new_form()
-        self.stack.addWidget(self.form)
-        self.stack.removeWidget(old)
-        old.deleteLater()

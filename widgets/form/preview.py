@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QVBoxLayout, QWidget
 
 from widgets.parts.look import look
 
+UNBROKEN = 40  # characters
 SHOWN = 8  # lines of code; more are counted
 
 
@@ -44,11 +45,16 @@ class Preview(QFrame):
     def show_words(self, sentence: str, code: Sequence[str], problem: str) -> None:
         """Sentence and code; while something is wrong, a word on why there is no code."""
         self.sentence.setText(sentence)
-        self.code.setText("   ".join(code) if len(code) <= SHOWN else _shortened(code))
+        self.code.setText("   ".join(map(_whole, code)) if len(code) <= SHOWN else _shortened(code))
         self.reason.setText(f"No code yet: {problem}" if problem else "" if code else "It adds no code.")
         self.code.setVisible(bool(code) and not problem)
         self.reason.setVisible(bool(self.reason.text()))
 
 
+def _whole(line: str) -> str:
+    """A line of code is not broken at its spaces, unless it is long."""
+    return line.replace(" ", "\N{NO-BREAK SPACE}") if len(line) <= UNBROKEN else line
+
+
 def _shortened(code: Sequence[str]) -> str:
-    return "   ".join(code[:SHOWN]) + f"   … {len(code)} lines in all"
+    return "   ".join(map(_whole, code[:SHOWN])) + f"   … {len(code)} lines in all"

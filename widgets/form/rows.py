@@ -14,6 +14,7 @@ from widgets.parts.icons import icon
 from widgets.parts.look import look
 
 MOST_SHOWN = 6  # entries before the list scrolls
+MANY = 4  # fields of an entry that stand beside the list instead of below it
 
 
 class RowsEditor(QWidget):
@@ -41,23 +42,33 @@ class RowsEditor(QWidget):
         self.buttons = {
             "add": self._button("Add", "add", self.add),
             "remove": self._button("Remove", "remove", self.remove),
-            "up": self._button("Up", "up", lambda: self.shift(-1)),
-            "down": self._button("Down", "down", lambda: self.shift(1)),
-            "clear": self._button("Clear", "refresh", self.clear),
+            "up": self._button("", "up", lambda: self.shift(-1), "Up"),
+            "down": self._button("", "down", lambda: self.shift(1), "Down"),
+            "clear": self._button("Clear", "close", self.clear),
         }
+        self._lay_out()
+        self._show(-1)
+
+    def _lay_out(self) -> None:
+        """The entries with their buttons; the open one below them, or beside them when it has many fields."""
         bar = QHBoxLayout()
         bar.setSpacing(4)
         for button in self.buttons.values():
             bar.addWidget(button)
         bar.addStretch(1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(8)
+        entries = QVBoxLayout()
+        entries.setSpacing(8)
         for widget in (self.list, self.empty):
-            whole.addWidget(widget)
-        whole.addLayout(bar)
+            entries.addWidget(widget)
+        entries.addLayout(bar)
+        beside = not self.narrow and len(fields.fields_of(self.field.row)) >= MANY
+        whole = QHBoxLayout(self) if beside else QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(16 if beside else 8)
+        whole.addLayout(entries, 1)
         whole.addWidget(self.form)
-        self._show(-1)
+        if beside:
+            entries.addStretch(1)
 
     def value(self) -> tuple[Any, ...]:
         return self.rows
@@ -66,6 +77,11 @@ class RowsEditor(QWidget):
         if value != self.rows:
             self.rows = tuple(value)
             self._show(min(max(self.list.currentRow(), 0), len(self.rows) - 1))
+
+    def show_offers(self, offers: Offers) -> None:
+        """Other names for the open entry."""
+        self.offers = offers
+        self.form.show_offers(offers)
 
     # ---- what the buttons do
 
@@ -135,12 +151,12 @@ class RowsEditor(QWidget):
         parts = [each.text(getattr(row, name), context) for name, each in shown if not each.empty(getattr(row, name))]
         return f"{number}    {'  '.join(part for part in parts if part) or '…'}"
 
-    def _button(self, text: str, picture: str, action: Callable[[], None]) -> QPushButton:
+    def _button(self, text: str, picture: str, action: Callable[[], None], name: str = "") -> QPushButton:
         button = QPushButton(icon(picture), "" if self.narrow else text)
-        button.setToolTip(f"{text}: {self.field.label}")
+        button.setToolTip(f"{name or text}: {self.field.label}")
         button.setMinimumHeight(look().control)
         button.setAutoDefault(False)
-        button.setAccessibleName(f"{text}: {self.field.label}")
+        button.setAccessibleName(f"{name or text}: {self.field.label}")
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         button.clicked.connect(lambda: action())
         return button

@@ -33,7 +33,9 @@ class Dialogs(QObject):
     ) -> InstructionDialog:
         """The dialog of a new step."""
         dialog = self._show(kind(), new=True, where=self._where(kind, before, place), section=self._section(before))
-        dialog.added.connect(lambda instruction, section, stay: self._added(instruction, section, before, place))
+        dialog.added.connect(
+            lambda instruction, section, stay: self._added(instruction, section, before, place, dialog.note.text())
+        )
         return dialog
 
     def modify(self, step_id: str) -> InstructionDialog:
@@ -44,9 +46,9 @@ class Dialogs(QObject):
                 dialog.activateWindow()
                 return dialog
         step = find(self.session.document.program, step_id)
-        dialog = self._show(step.instruction, new=False, where="")
+        dialog = self._show(step.instruction, new=False, where="", note=step.note)
         dialog.setProperty("step", step_id)
-        dialog.changed.connect(lambda instruction: self._changed(step_id, instruction))
+        dialog.changed.connect(lambda instruction: self._changed(step_id, instruction, dialog.note.text()))
         return dialog
 
     def show_offers(self, offers: Offers) -> None:
@@ -61,10 +63,12 @@ class Dialogs(QObject):
 
     # ---- inside
 
-    def _show(self, instruction: Instruction, *, new: bool, where: str, section: str = "") -> InstructionDialog:
+    def _show(
+        self, instruction: Instruction, *, new: bool, where: str, section: str = "", note: str = ""
+    ) -> InstructionDialog:
         offers = offers_of(self.session.document)
         window = self.view.window()
-        dialog = InstructionDialog(instruction, offers, new=new, where=where, section=section, parent=window)
+        dialog = InstructionDialog(instruction, offers, new=new, where=where, section=section, note=note, parent=window)
         self.open.append(dialog)
         dialog.finished.connect(lambda _: self.open.remove(dialog))
         dialog.help_requested.connect(self.help_requested)
@@ -74,16 +78,18 @@ class Dialogs(QObject):
         dialog.form.fields.focus_first()
         return dialog
 
-    def _added(self, instruction: Instruction, section: str, before: str | None, place: Place | None) -> None:
+    def _added(
+        self, instruction: Instruction, section: str, before: str | None, place: Place | None, note: str
+    ) -> None:
         if place is not None:
-            step_id = self.session.insert_at(instruction, place)
+            step_id = self.session.insert_at(instruction, place, note)
         else:
-            (step_id,) = self.session.insert([instruction], before, Section(section) if section else None)
+            (step_id,) = self.session.insert([instruction], before, Section(section) if section else None, note)
         self.view.reveal_step(step_id)  # type: ignore[attr-defined]
         self.said.emit(f"Added: {instruction.title}")
 
-    def _changed(self, step_id: str, instruction: Instruction) -> None:
-        self.session.replace(step_id, instruction)
+    def _changed(self, step_id: str, instruction: Instruction, note: str) -> None:
+        self.session.replace(step_id, instruction, note=note)
         self.said.emit(f"Changed: {instruction.title}")
 
     def _section(self, before: str | None) -> str:

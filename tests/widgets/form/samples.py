@@ -14,17 +14,25 @@ from codegen.setup import Axis, Setup
 from widgets.form.offers import Offers, offers_of
 
 
-def machine() -> Setup:
-    """Two axes; 637 counts an inch on X (the wire cutter), 1000 on Y."""
-    return Setup(model="ssc2").with_axis("X", Axis(counts_per_unit="637")).with_axis("Y", Axis(counts_per_unit="1000"))
+def machine(model: str = "ssc2") -> Setup:
+    """637 counts an inch on X (the wire cutter), 1000 on the other axes."""
+    setup = Setup(model=model)
+    for letter in setup.letters:
+        setup = setup.with_axis(letter, Axis(counts_per_unit="637" if letter == "X" else "1000"))
+    return setup
+
+
+def program(model: str = "ssc2") -> tuple[Program, Setup]:
+    """A small program: the label A and the variable LEN."""
+    made = Program(name="CUTTER")
+    for instruction in (Label(name="A"), MathematicalEquation(equations=(Equation(variable="LEN", expression="4"),))):
+        made = insert(made, [fresh(made, instruction)], Place(Section.MAIN, 9))
+    return made, machine(model)
 
 
 def offers() -> Offers:
-    """What a small program offers: the label A and the variable LEN."""
-    program = Program(name="CUTTER")
-    for instruction in (Label(name="A"), MathematicalEquation(equations=(Equation(variable="LEN", expression="4"),))):
-        program = insert(program, [fresh(program, instruction)], Place(Section.MAIN, 9))
-    return offers_of(Document(program, machine()))
+    """What a small program offers."""
+    return offers_of(Document(*program()))
 
 
 def other_value(field: fields.Field, present: Any) -> Any:

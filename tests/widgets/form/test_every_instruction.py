@@ -90,8 +90,8 @@ def test_a_value_shown_is_read_back_the_same(qtbot: QtBot, kind: type[Instructio
 @EVERY
 def test_fields_are_shown_exactly_when_they_count(qtbot: QtBot, kind: type[Instruction]) -> None:
     form = form_of(qtbot, kind())
-    for (name, _), cell in form.cells.items():
-        assert cell.isHidden() == (not read.shown(kind(), name))
+    for (name, axis), cell in form.cells.items():
+        assert cell.isHidden() == (not form.is_shown(name, axis))
 
 
 @EVERY
