@@ -15,7 +15,8 @@ START_ANGLE = 130.0  # degrees: where a motor happens to stand at power-up; with
 class Commutation:
     """Phase of brushless axes."""
 
-    def __init__(self, parts: Sequence[State], plants: Sequence[Plant]) -> None:
+    def __init__(self, state: State, parts: Sequence[State], plants: Sequence[Plant]) -> None:
+        self._state = state
         self._parts = parts
         for part, plant in zip(parts, plants, strict=True):
             part[layout.MAGNETIC_CYCLE] = plant.magnetic_cycle
@@ -76,8 +77,13 @@ class Commutation:
         value = int(self._parts[axis][layout.HALL_SECTOR])
         return None if value < 0 else value
 
+    def hall_mask(self) -> int:
+        """The input bits that hall sensors drive."""
+        return sum(7 << int(part[layout.HALL_FIRST]) - 1 for part in self._parts if part[layout.HALL_FIRST] > 0.0)
+
     def estimate(self, axis: int) -> bool:
         """At reset: the phase from the hall sensors, good to 30 degrees; False without them."""
+        commutation.read_halls(self._state, self._parts[axis])
         sector = self.sector(axis)
         if sector is None:
             return False

@@ -53,7 +53,7 @@ class Motion(Moves, Outside):
         self.path = Path(self._state, self._parts)
         self.cam = Cam(self._state, self._parts)
         self.contour = Contour(self._state, self._parts)
-        self.commutation = Commutation(self._parts, self._plants)
+        self.commutation = Commutation(self._state, self._parts, self._plants)
 
     def _power_up(self, seed: int) -> None:
         state = self._state

@@ -20,6 +20,7 @@ def parameters(unit: Unit) -> dict[str, Any]:
         "switches": list(state.switches),
         "port_two": list(state.port_two),
         "outputs": state.outputs,
+        "brushless": state.brushless,
         "motors_on": [unit.motion.motor_on(axis) for axis in unit.axes()],
     }
 
@@ -36,6 +37,7 @@ def load_parameters(unit: Unit, burned: dict[str, Any]) -> list[bool]:
     state.switches = list(burned["switches"])
     state.port_two = list(burned["port_two"])
     state.outputs = burned["outputs"]
+    state.brushless = bool(burned.get("brushless", False))
     return [bool(on) for on in burned["motors_on"]]
 
 

@@ -19,7 +19,7 @@ from codegen.twoletter.nodes import (
 )
 from codegen.twoletter.rows import Row, Takes
 from device.simulator.twoletter import behaviour
-from device.simulator.twoletter.behaviour import not_simulated, registers
+from device.simulator.twoletter.behaviour import registers
 from device.simulator.twoletter.state import AXES, CommandError, Strand
 from device.simulator.twoletter.values import VALUES
 
@@ -62,7 +62,7 @@ def command_op(command: Command, following: int, unit: Unit, code: Code | None, 
     row = COMMANDS.get(command.name)
     refusal = _refusal(row, command, unit, from_port)
     if refusal or row is None:
-        return refuse(refusal, unit, command.name)
+        return refuse(refusal)
     compiled = behaviour.COMPILES.get(command.name)
     if compiled is not None:
         return compiled(command, following, unit, code)
@@ -76,11 +76,11 @@ def command_op(command: Command, following: int, unit: Unit, code: Code | None, 
         return _store(command, row, following, unit)
     if row.takes in LETTERS or row.takes is Takes.NONE:
         return _tell(command, row, following, unit)
-    return refuse(1, unit, command.name)
+    return refuse(1)
 
 
 def _refusal(row: Row | None, command: Command, unit: Unit, from_port: bool) -> int:
-    if row is None or not row.known_to(unit.model) or command.name in not_simulated.REASONS:
+    if row is None or not row.known_to(unit.model):
         return 1
     if from_port and not row.port:
         return 2
@@ -105,13 +105,10 @@ def _bad_axis(row: Row, command: Command, unit: Unit) -> int:
     return 0
 
 
-def refuse(code: int, unit: Unit, name: str) -> Op:
-    """An op that answers an error; commands left out say so in the notices."""
+def refuse(code: int) -> Op:
+    """An op that answers an error."""
 
     def op(strand: Strand) -> int:
-        reason = not_simulated.REASONS.get(name)
-        if reason:
-            unit.notice(f"{name} is not simulated: {reason}")
         raise CommandError(code)
 
     return op
@@ -206,7 +203,7 @@ def _ask(command: Command, row: Row, following: int, unit: Unit) -> Op:
     """`PR ?,?`: the asked places are answered, numbers beside them are stored."""
     reads, form = reader(command.name), local_format(command)
     if row.reply is None:
-        return refuse(51, unit, command.name)
+        return refuse(51)
     reply, name = row.reply, command.name
     arguments = places(command)
     asked = [place for place, argument in enumerate(arguments) if isinstance(argument, Query)]
@@ -226,7 +223,7 @@ def _ask(command: Command, row: Row, following: int, unit: Unit) -> Op:
 def _tell(command: Command, row: Row, following: int, unit: Unit) -> Op:
     """`TP XY`"""
     if command.name not in behaviour.READS or row.reply is None:
-        return refuse(50, unit, command.name)
+        return refuse(50)
     reads, form, reply, name = behaviour.READS[command.name], local_format(command), row.reply, command.name
     call = caller(command, row, unit)
 

@@ -65,7 +65,7 @@ class SimulatedNames:
     def function(self, name: str, argument: int) -> int:
         state, number = self.unit.state, argument >> 16
         if name == "IN":
-            return self._bit(state.inputs, number, self.unit.model.inputs)
+            return self._bit(self.unit.inputs, number, self.unit.model.inputs)
         if name == "OUT":
             return self._bit(state.outputs, number, self.unit.model.outputs)
         if name == "AN" and 1 <= number <= len(state.analog):

@@ -32,6 +32,7 @@ def begin(unit: Unit) -> None:
         port.text.clear()
     for uart in unit.uarts:
         uart.clear()
+    unit.end_field()
     motion = unit.motion
     motion.abort_all()
     motion.cam.enable(False)
@@ -86,6 +87,10 @@ def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
     motion.cam.master(0, auxiliary=unit.model.family != "ssc")
     motion.set_limit_polarity(state.switches[0] == 1)
     motion.set_outputs(state.outputs)
+    if unit.model.commutation:
+        motion.commutation.enable(0, state.brushless)
+        if not motion.commutation.estimate(0):
+            motion.commutation.set_phase(0, 0.0)  # unknown: the loop is unstable until BZ (l.750)
     for axis, on in enumerate(motors_on):
         motion.define_position(axis, 0)
         if on:

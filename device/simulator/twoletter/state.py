@@ -109,6 +109,20 @@ class Download:
 
 
 @dataclass(slots=True)
+class FieldTest:
+    """BZ or BS under way: a field held still draws the motor along."""
+
+    kind: str
+    volts: float
+    start: int  # position at which it began
+    stage: str = "zero"
+    looks: int = 0
+    mark: int = 0
+    phase_ms: int = 0
+    seen: list[tuple[int, int]] = field(default_factory=list)  # position and hall levels at each step of BS
+
+
+@dataclass(slots=True)
 class Recording:
     """RA, RD, RC: the channels, and how far the capture is."""
 
@@ -142,6 +156,8 @@ class State:
     cam_interval: list[int] = field(default_factory=lambda: [256, 0])  # EP
     tangent: list[int] = field(default_factory=lambda: [0, 0])  # TN
     recording: Recording = field(default_factory=Recording)
+    brushless: bool = False  # BA
+    field_test: FieldTest | None = None  # BZ, BS
     analog: list[int] = field(default_factory=lambda: [0] * 8)  # 1/65536 V
     abort_input: bool = True
     outputs: int = 0

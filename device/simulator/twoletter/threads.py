@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from codegen.twoletter.evaluate import EvaluationError
 from device.simulator.times import COMMAND
-from device.simulator.twoletter import wire
+from device.simulator.twoletter import behaviour, wire
 from device.simulator.twoletter.behaviour import recording
 from device.simulator.twoletter.state import FOREVER, CommandError, NotYet, Port, Strand, Thread, Wait
 from device.simulator.twoletter.unit import Unit
@@ -227,9 +227,7 @@ class Interpreter:
         try:
             ops[port.position](port)
         except (CommandError, EvaluationError) as refusal:
-            unit.state.error_code = refusal.code
-            unit.reply(port.number, wire.REFUSED)
-            self._end_line(port)
+            self._refuse(port, refusal.code)
         else:
             self._stall(port)
             if port.wait is None:
@@ -260,10 +258,30 @@ class Interpreter:
         strand.wait = None
         unit.drop(wait)
         unit.changed = True
+        if wait.kind in behaviour.ENDS and not self._goes_on(strand, wait):
+            return
         if isinstance(strand, Port):
             self._prompt(strand)
         if wait.kind == "MC":
             self._check_position(wait)
+
+    def _goes_on(self, strand: Strand, wait: Wait) -> bool:
+        """Carries on with a command that takes several steps; True when it is done and was not refused."""
+        unit = self.unit
+        try:
+            behaviour.ENDS[wait.kind](unit, strand, wait)
+        except CommandError as refusal:
+            if isinstance(strand, Port):
+                self._refuse(strand, refusal.code)
+            else:
+                unit.fail(strand, refusal.code, strand.pc - 1)
+            return False
+        return strand.wait is None
+
+    def _refuse(self, port: Port, code: int) -> None:
+        self.unit.state.error_code = code
+        self.unit.reply(port.number, wire.REFUSED)
+        self._end_line(port)
 
     def _check_position(self, wait: Wait) -> None:
         """MC gave up after TW: stop code 99, and #MCTIME (dmc-1412-1414.txt l.3049)."""

@@ -48,6 +48,7 @@ class Unit:
         self.uarts = uarts
         self.eeprom = eeprom
         self.stepper_jumpers = tuple(jumpers)
+        self.hall_mask = motion.commutation.hall_mask()
         self.records = Records()
         self.notices: list[str] = []
         self.state: State = fresh(model)
@@ -68,6 +69,18 @@ class Unit:
         if clock.now >= clock.tick + clock.period:
             clock.catch_up(clock.now)
         return clock.motion
+
+    @property
+    def inputs(self) -> int:
+        """Levels of the inputs, bit 0 = input 1; hall sensors drive theirs."""
+        levels = self.state.inputs
+        return levels & ~self.hall_mask | self.motion.inputs() & self.hall_mask if self.hall_mask else levels
+
+    def end_field(self) -> None:
+        """BZ or BS is over: the motor is off, the phase here is that of the field."""
+        if self.state.field_test is not None:
+            self.state.field_test = None
+            self.motion.commutation.release(0)
 
     @property
     def sample(self) -> int:
@@ -121,9 +134,10 @@ class Unit:
     def halt(self, number: int) -> None:
         """HX n: ends a thread and forgets what it waited for."""
         thread = self.state.threads[number]
-        self.drop(thread.wait)
-        for frame in thread.stack:
-            self.drop(frame.wait)
+        for wait in (thread.wait, *(frame.wait for frame in thread.stack)):
+            self.drop(wait)
+            if wait is not None and wait.kind in FIELD_WAITS:
+                self.end_field()
         line = self.code.line(thread.pc) if thread.running else thread.line
         if thread.running and self.records.on_trace is not None:
             self.records.on_trace(self.clock.now, number, -1)
@@ -295,4 +309,5 @@ class Unit:
 
 
 LINES_KEPT = 2000
+FIELD_WAITS = ("BZ", "BS")
 ROUTINES = ("LIMSWI", "POSERR", "ININT", "MCTIME", "CMDERR", "COMINT")

@@ -1,4 +1,4 @@
-"""Every row of the command table is simulated in exactly one way, or says why it is not."""
+"""Every row of the command table is simulated in exactly one way."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 
 from codegen.twoletter.commands import COMMANDS, KEYWORDS
 from device.simulator.twoletter import behaviour
-from device.simulator.twoletter.behaviour import not_simulated, registers
+from device.simulator.twoletter.behaviour import registers
 from tests.device.simulator.bench import Bench
 
 # Rows that are no commands: read only in expressions, or bytes that the wire takes.
@@ -19,8 +19,6 @@ def ways(name: str) -> list[str]:
     """How a command is simulated."""
     row = COMMANDS[name]
     found = []
-    if name in not_simulated.REASONS:
-        found.append("not simulated")
     if name in behaviour.COMPILES:
         found.append("compiled")
     if name in behaviour.WAITS:
@@ -44,8 +42,7 @@ def test_every_command_is_simulated_in_exactly_one_way(name: str) -> None:
 @pytest.mark.parametrize("name", [name for name, row in COMMANDS.items() if row.operand])
 def test_every_operand_can_be_read(name: str) -> None:
     operand = name.removeprefix("_")
-    readable = operand in behaviour.READS or operand in registers.STORES
-    assert readable or name in not_simulated.REASONS, name
+    assert operand in behaviour.READS or operand in registers.STORES, name
 
 
 @pytest.mark.parametrize("name", list(KEYWORDS))
@@ -53,21 +50,8 @@ def test_every_keyword_can_be_read(name: str) -> None:
     assert name in BY_THE_NAMES or name in behaviour.KEYWORDS, name
 
 
-@pytest.mark.parametrize("name", sorted(not_simulated.REASONS))
-def test_what_is_not_simulated_is_refused_with_a_notice(name: str) -> None:
-    if not COMMANDS[name].families & {"ssc"}:
-        model = "dmc1412"
-    else:
-        model = "ssc4" if COMMANDS[name].known_to(Bench("ssc4").simulation.model) else "dmc1412"
-    bench = Bench(model)
-    assert bench.refused(COMMANDS[name].example) == 1
-    assert any(notice.startswith(name) for notice in bench.simulation.notices)
-
-
 @pytest.mark.parametrize(
     "name", [name for name, row in COMMANDS.items() if row.reply == "PF" and row.takes.name == "AXIS_NUMBERS"]
 )
 def test_position_registers_answer_a_question(name: str) -> None:
-    if name in not_simulated.REASONS:
-        pytest.skip("not simulated")
     assert Bench().ask(f"{name} ?").lstrip(" -").isdigit()

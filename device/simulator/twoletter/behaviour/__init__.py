@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from codegen.twoletter.nodes import Command
 from device.simulator.twoletter.behaviour import (
+    commutation,
     configuration,
     flow,
     following,
@@ -21,7 +22,7 @@ from device.simulator.twoletter.behaviour import (
     system,
     trippoints,
 )
-from device.simulator.twoletter.state import Strand
+from device.simulator.twoletter.state import Strand, Wait
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
@@ -42,6 +43,7 @@ DOES: Final[dict[str, Callable[[Unit, Strand, Call], None]]] = {
     **following.DOES,
     **sequences.DOES,
     **recording.DOES,
+    **commutation.DOES,
 }
 READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     **motion.READS,
@@ -52,9 +54,12 @@ READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     **following.READS,
     **sequences.READS,
     **recording.READS,
+    **commutation.READS,
 }
 ASKED: Final[dict[str, Callable[[Unit, int], int]]] = {}
 WAITS: Final = {**trippoints.WAITS, **following.WAITS, **sequences.WAITS}
+ENDS: Final[dict[str, Callable[[Unit, Strand, Wait], None]]] = {**commutation.ENDS}
+"""What goes on when a wait of this kind is over; it may wait again or refuse."""
 COMPILES: Final[dict[str, Callable[[Command, int, Unit, Code | None], Op]]] = {
     **flow.COMPILES,
     **configuration.COMPILES,

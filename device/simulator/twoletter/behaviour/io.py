@@ -78,5 +78,5 @@ DOES: Final = {
 }
 READS: Final = {
     "OP": lambda unit, axis: unit.state.outputs * ONE,
-    "TI": lambda unit, axis: unit.state.inputs * ONE,
+    "TI": lambda unit, axis: unit.inputs * ONE,
 }

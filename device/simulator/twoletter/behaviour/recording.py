@@ -108,7 +108,7 @@ RECORDED: Final[dict[str, Callable[[Unit, int], int]]] = {
     "TE": lambda unit, axis: unit.motion.error(axis) * ONE,
     "SH": lambda unit, axis: unit.motion.reference(axis) * ONE,
     "RL": lambda unit, axis: unit.motion.latched(axis) * ONE,
-    "TI": lambda unit, axis: unit.state.inputs * ONE,
+    "TI": lambda unit, axis: unit.inputs * ONE,
     "OP": lambda unit, axis: unit.state.outputs * ONE,
     "TS": _switches,
     "SC": lambda unit, axis: unit.motion.stop_code(axis) * ONE,

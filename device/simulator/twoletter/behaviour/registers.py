@@ -71,6 +71,15 @@ def _path(setter: str) -> Store:
     return Store(per_axis=False, apply=follow)
 
 
+def _phase(setter: str, whole: bool = False) -> Store:
+    """A setting of sine commutation (DMC-1412)."""
+
+    def follow(unit: Unit, axis: int, value: int) -> None:
+        getattr(unit.motion.commutation, setter)(axis, value // ONE if whole else value / ONE)
+
+    return Store(apply=follow)
+
+
 def _needs_jumper(unit: Unit, axis: int, value: int) -> None:
     """Stepper types need the SM jumper (SSC manual l.772)."""
     if abs(value) >= STEPPER and not unit.stepper_jumpers[axis]:
@@ -115,9 +124,14 @@ STORES: Final[dict[str, Store]] = {
     "PF": Store(per_axis=False),
     "VF": Store(per_axis=False),
     "SA": Store(per_axis=False),
+    "BB": _phase("set_hall_offset"),
+    "BI": _phase("set_hall_inputs", whole=True),
+    "BM": _phase("set_cycle"),
+    "BO": Store(),
     "CW1": Store(per_axis=False),  # the two fields of CW
     "CW2": Store(per_axis=False),
 }
+PHASE: Final = frozenset({"BB", "BI", "BM"})
 PATH: Final = frozenset({"VS", "VA", "VD", "VR", "VT"})
 FIELDS: Final = {"CW1": 2, "CW2": 0}  # defaults of what is no row of its own
 
@@ -200,5 +214,8 @@ def put_all(unit: Unit) -> None:
         if entry.register is not None:
             for axis, value in enumerate(unit.state.registers[name]):
                 unit.motion.set(axis, entry.register, value / ONE)
+        elif name in PHASE and entry.apply is not None:
+            if unit.model.commutation:
+                entry.apply(unit, 0, unit.state.registers[name][0])
         elif name in PATH and entry.apply is not None:
             entry.apply(unit, 0, unit.state.settings[name])

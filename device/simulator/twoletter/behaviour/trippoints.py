@@ -87,6 +87,9 @@ def _after_input(unit: Unit, strand: Strand, call: Call) -> Wait | None:
     number = call.whole(0)
     if not 1 <= abs(number) <= unit.model.inputs:
         raise CommandError(6)
+    if unit.hall_mask >> (abs(number) - 1) & 1:  # the motor itself changes this one
+        kind = Watch.INPUT_HIGH if number > 0 else Watch.INPUT_LOW
+        return _watch(unit, "AI", [(kind, 0, float(abs(number)))])
     wait = Wait("AI", number=abs(number), level=number > 0)
     if input_level(unit, wait.number) == wait.level:
         return None
