@@ -85,10 +85,16 @@ class Cell(QWidget):
 
 
 def _say(label: QLabel, text: str) -> None:
+    text = unbroken(text)
     if label.text() != text:
         label.setText(text)
         label.setMinimumWidth(label.minimumSizeHint().width())  # the longest word
     label.setVisible(bool(text))
+
+
+def unbroken(text: str) -> str:
+    """A unit such as in/s is not broken behind its slash."""
+    return text.replace("/s", "/\N{WORD JOINER}s")
 
 
 def name_focusable(editor: QWidget, name: str, help_text: str) -> None:

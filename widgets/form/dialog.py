@@ -22,7 +22,7 @@ from widgets.form.offers import Offers
 from widgets.form.room import keep_on_screen, room, settle
 from widgets.parts.look import look
 
-LEAST_WIDTH = 520  # px
+LEAST_WIDTH = 560  # px
 BAR = 14  # width of a scroll bar, px (theme.toml)
 SECTION_WORDS = {"configuration": "Configuration", "main": "Main"}
 
@@ -101,7 +101,7 @@ class InstructionDialog(QDialog):
         heading.addWidget(bar)
         heading.addLayout(words, 1)
         self.column = column = QVBoxLayout(self)
-        column.setContentsMargins(16, 16, 16, 16)
+        column.setContentsMargins(16, 12, 16, 12)
         column.setSpacing(8)
         column.addLayout(heading)
         if self.new and instruction.section == "C/M":

@@ -99,6 +99,7 @@ class ExpressionEditor(QWidget):
         self.line.setFont(look().code_font())
         button = QToolButton()
         button.setText("ƒ(x)")
+        button.setProperty("role", "control")
         button.setMinimumSize(look().control + 16, look().control)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         button.setToolTip("Functions, operators, variables and live values (Ctrl+Space)")

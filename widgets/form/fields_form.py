@@ -88,11 +88,13 @@ class FieldsForm(QWidget):
         problem = read.problem_of(self.item, name, setup, axis)
         if isinstance(cell.editor, RowsEditor) and cell.editor.rows:
             problem = None  # the open row says it at the field
+        label = fields.fields_of(self.item)[name].label
+        counts = read.counts_text(self.item, name, setup, axis)
         cell.show_facts(
             read.unit_text(self.item, name, setup, axis),
-            read.counts_text(self.item, name, setup, axis),
-            read.warning_of(self.item, name, setup, axis),
-            problem,
+            "" if counts == _part(getattr(self.item, name), axis) else counts,
+            _short(read.warning_of(self.item, name, setup, axis), label, axis),
+            _short(problem, label, axis),
         )
 
     def is_shown(self, name: str, axis: str = "") -> bool:
@@ -266,6 +268,17 @@ def _groups(members: Mapping[str, fields.Field]) -> Iterator[tuple[bool, dict[st
         members = {name: members[name] for name in (*before, *tables, *others[len(before) :])}
     for per_axis, group in groupby(members.items(), key=lambda item: isinstance(item[1], fields.PerAxis)):
         yield per_axis, dict(group)
+
+
+def _short(message: str | None, label: str, axis: str) -> str | None:
+    """A message below its field need not say which field it means."""
+    if message is None:
+        return None
+    message = message.removeprefix(f"{axis}: ")
+    for start, instead in ((f"{label}: ", ""), (f"{label} will really be", "Really")):
+        if message.startswith(start):
+            message = instead + message.removeprefix(start)
+    return message[:1].upper() + message[1:]
 
 
 def _part(value: Any, axis: str) -> Any:

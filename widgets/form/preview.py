@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QLabel, QVBoxLayout, QWidget
 
+from widgets.form.cell import unbroken
 from widgets.parts.look import look
 
 UNBROKEN = 40  # characters
@@ -40,11 +41,11 @@ class Preview(QFrame):
         column.addWidget(self.sentence)
         column.addWidget(self.code)
         column.addWidget(self.reason)
-        self.setMinimumHeight(72)
+        self.setMinimumHeight(64)
 
     def show_words(self, sentence: str, code: Sequence[str], problem: str) -> None:
         """Sentence and code; while something is wrong, a word on why there is no code."""
-        self.sentence.setText(sentence)
+        self.sentence.setText(unbroken(sentence))
         self.code.setText("   ".join(map(_whole, code)) if len(code) <= SHOWN else _shortened(code))
         self.reason.setText(f"No code yet: {problem}" if problem else "" if code else "It adds no code.")
         self.code.setVisible(bool(code) and not problem)

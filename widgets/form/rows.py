@@ -52,7 +52,7 @@ class RowsEditor(QWidget):
     def _lay_out(self) -> None:
         """The entries with their buttons; the open one below them, or beside them when it has many fields."""
         bar = QHBoxLayout()
-        bar.setSpacing(4)
+        bar.setSpacing(2 if self.narrow else 4)
         for button in self.buttons.values():
             bar.addWidget(button)
         bar.addStretch(1)
@@ -155,6 +155,8 @@ class RowsEditor(QWidget):
         button = QPushButton(icon(picture), "" if self.narrow else text)
         button.setToolTip(f"{name or text}: {self.field.label}")
         button.setMinimumHeight(look().control)
+        if self.narrow:
+            button.setProperty("role", "segment")  # less room beside the picture
         button.setAutoDefault(False)
         button.setAccessibleName(f"{name or text}: {self.field.label}")
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -16,6 +16,7 @@ from widgets.program.words import Words
 Index = QModelIndex | QPersistentModelIndex
 BAR = 4
 GAP = 8
+WARNING = "△"
 
 
 class ProgramDelegate(QStyledItemDelegate):
@@ -103,15 +104,31 @@ class ProgramDelegate(QStyledItemDelegate):
         problem, token = self._problem(step.id, step.enabled)
         sentence = self.words.english(step)
         if problem:
-            room = box.width()
-            used = self._text(painter, box.adjusted(0, 0, -room // 3, 0), sentence, font, colour) + 2 * GAP
-            self._text(painter, box.adjusted(used, 0, 0, 0), problem, option.font, self._colour(option, token))
-        else:
-            used = self._text(painter, box, sentence, font, colour) + 2 * GAP
-            if step.note:
-                quiet = QFont(option.font)
-                quiet.setItalic(True)
-                self._text(painter, box.adjusted(used, 0, 0, 0), step.note, quiet, self._colour(option, "quiet"))
+            self._with_problem(painter, box, option, (sentence, font, colour), (problem, self._colour(option, token)))
+            return
+        used = self._text(painter, box, sentence, font, colour) + 2 * GAP
+        if step.note:
+            quiet = QFont(option.font)
+            quiet.setItalic(True)
+            self._text(painter, box.adjusted(used, 0, 0, 0), step.note, quiet, self._colour(option, "quiet"))
+
+    def _with_problem(
+        self,
+        painter: QPainter,
+        box: QRect,
+        option: QStyleOptionViewItem,
+        sentence: tuple[str, QFont, QColor],
+        problem: tuple[str, QColor],
+    ) -> None:
+        """A mere warning gives way to a long sentence, down to its sign; the tool tip says it whole."""
+        words, colour = problem
+        room = box.width() // 3
+        if words.startswith(WARNING):
+            whole = QFontMetrics(sentence[1]).horizontalAdvance(sentence[0])
+            if whole + 2 * GAP + QFontMetrics(option.font).horizontalAdvance(words) > box.width():
+                words, room = WARNING, 3 * GAP
+        used = self._text(painter, box.adjusted(0, 0, -room, 0), *sentence) + 2 * GAP - (GAP if words == WARNING else 0)
+        self._text(painter, box.adjusted(used, 0, 0, 0), words, option.font, colour)
 
     def _problem(self, step_id: str, enabled: bool) -> tuple[str, str]:
         if self.error is not None and self.error[0] == step_id:
@@ -119,7 +136,7 @@ class ProgramDelegate(QStyledItemDelegate):
         message = self.words.problems.get(step_id)
         if not message or not enabled:
             return "", ""
-        return ("! " if step_id in self.words.errors else "△ ") + message[0], "warning"
+        return ("! " if step_id in self.words.errors else f"{WARNING} ") + message[0], "warning"
 
     def _code(self, painter: QPainter, option: QStyleOptionViewItem, node: Node) -> None:
         if node.step is None:

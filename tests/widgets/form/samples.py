@@ -66,3 +66,8 @@ def other_value(field: fields.Field, present: Any) -> Any:
 def with_value(instruction: Instruction, name: str, value: Any) -> Instruction:
     """The instruction with one value replaced."""
     return dc.replace(instruction, **{name: value})
+
+
+def plain(text: str) -> str:
+    """Text as it was before it was told where it may not be broken."""
+    return text.replace("\N{WORD JOINER}", "").replace("\N{NO-BREAK SPACE}", " ")
