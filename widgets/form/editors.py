@@ -12,8 +12,8 @@ from PySide6.QtWidgets import (
     QComboBox,
     QLineEdit,
     QPlainTextEdit,
+    QPushButton,
     QSizePolicy,
-    QToolButton,
     QWidget,
 )
 
@@ -97,10 +97,9 @@ class ExpressionEditor(QWidget):
         self.line.setMinimumWidth(160)
         self.line.setMaximumWidth(FREE)
         self.line.setFont(look().code_font())
-        button = QToolButton()
-        button.setText("ƒ(x)")
-        button.setProperty("role", "control")
-        button.setMinimumSize(look().control + 16, look().control)
+        button = QPushButton("ƒ(x)")
+        button.setAutoDefault(False)
+        button.setMinimumHeight(look().control)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         button.setToolTip("Functions, operators, variables and live values (Ctrl+Space)")
         button.setAccessibleName("Build an expression")
