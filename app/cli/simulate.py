@@ -11,9 +11,9 @@ from app.cli.failure import DONE, Failure
 from app.cli.run import read_plants
 from app.cli.sources import DEFAULT_MODEL, said_of
 from codegen.models import model
-from device.simulator.eeprom import Eeprom, EepromUnreadable
+from device.simulator.eeprom import Eeprom, EepromUnreadable, read_eeproms
 from device.simulator.lines import open_line
-from device.simulator.server import Served, serve
+from device.simulator.server import MOST_IN_CHAIN, maker, serve
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1", "")
 ANY_PORT = "127.0.0.1:0"
@@ -38,28 +38,26 @@ def end_when_interrupted() -> None:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
-def read_eeprom(path: str | None) -> Eeprom | None:
-    """The file that keeps what is burned, where one is given."""
-    if path is None:
-        return None
+def eeproms_of(path: str | None, count: int) -> list[Eeprom]:
+    """What keeps the burned data of each controller."""
     try:
-        return Eeprom(Path(path))
+        return read_eeproms(Path(path) if path else None, count)
     except (EepromUnreadable, OSError) as problem:
-        raise said_of(Path(path), problem) from problem
+        raise said_of(Path(path or ""), problem) from problem
 
 
 def simulate(options: argparse.Namespace) -> int:
     """Serves until interrupted."""
     name = options.controller or DEFAULT_MODEL
-    if options.chain is not None:
-        raise Failure("--chain: daisy chains of simulated controllers are not available yet")
+    if options.chain is not None and not 1 <= options.chain <= MOST_IN_CHAIN:
+        raise Failure(f"--chain {options.chain}: a daisy chain has 1 to {MOST_IN_CHAIN} controllers")
     if name == "smartmotor":
         raise Failure("a simulated smartmotor is not available yet")
     if options.pty and options.tcp:
         raise Failure("--pty and --tcp exclude each other")
     if options.baud is not None and options.baud < 1:
         raise Failure("--baud must be greater than 0")
-    eeprom = read_eeprom(options.eeprom)
+    eeproms = eeproms_of(options.eeprom, options.chain or 1)
     plants = read_plants(options.plant)
     tcp = None if options.pty else tcp_address(options.tcp)
     end_when_interrupted()
@@ -67,11 +65,6 @@ def simulate(options: argparse.Namespace) -> int:
         line = open_line(pty=options.pty, tcp=tcp)
     except OSError as problem:
         raise Failure(f"can not listen on {tcp or 'a pseudo-terminal'}: {problem.strerror}") from problem
-
-    def make() -> Served:
-        from device.simulator.simulation import Simulation
-
-        return Simulation(model(name), plants, eeprom, baud=options.baud, compiled=False)
-
+    make = maker(model(name), plants, eeproms, chain=options.chain is not None, baud=options.baud)
     serve(make, line)
     return DONE

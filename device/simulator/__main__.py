@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from codegen.models import MODELS, Model
-from device.simulator.eeprom import Eeprom, EepromUnreadable
+from device.simulator.eeprom import EepromUnreadable, read_eeproms
 from device.simulator.lines import open_line
-from device.simulator.server import serve
+from device.simulator.server import MOST_IN_CHAIN, maker, serve
 
 if TYPE_CHECKING:
     from device.simulator.plant import Plant
@@ -34,6 +34,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--baud", type=int, metavar="N", help="pace the line to N baud")
     parser.add_argument("--no-handshake", action="store_true", help="characters that come too fast are lost (error 5)")
     parser.add_argument("--eeprom", type=Path, metavar="FILE", help="where burned data is kept")
+    parser.add_argument("--chain", type=int, metavar="N", help="N controllers in a daisy chain")
     parser.add_argument("--seed", type=int, default=0, help="of the encoder noise")
     parser.add_argument("--control", action="store_true", help="take signal,value and state lines from standard input")
 
@@ -52,25 +53,15 @@ def maker_of(options: argparse.Namespace, model: Model) -> Callable[[], Served]:
             plants = load_plants(options.plant)
         except PlantUnreadable as reason:
             raise Unusable(str(reason)) from reason
+    if options.chain is not None and not 1 <= options.chain <= MOST_IN_CHAIN:
+        raise Unusable(f"--chain {options.chain}: a daisy chain has 1 to {MOST_IN_CHAIN} controllers")
     try:
-        eeprom = Eeprom(options.eeprom)
+        eeproms = read_eeproms(options.eeprom, options.chain or 1)
     except EepromUnreadable as reason:
         raise Unusable(str(reason)) from reason
 
-    def make() -> Served:
-        from device.simulator.simulation import Simulation
-
-        return Simulation(
-            model,
-            plants,
-            eeprom,
-            baud=options.baud,
-            seed=options.seed,
-            compiled=False,
-            handshake=not options.no_handshake,
-        )
-
-    return make
+    settings = {"baud": options.baud, "seed": options.seed, "handshake": not options.no_handshake}
+    return maker(model, plants, eeproms, chain=options.chain is not None, **settings)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

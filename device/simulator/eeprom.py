@@ -70,3 +70,10 @@ def _read(path: Path) -> dict[str, Any]:
     if not isinstance(content, dict) or content.get("eeprom") != 1:
         raise EepromUnreadable(f"{path.name}: not an EEPROM file")
     return {name: content[name] for name in PARTS if name in content}
+
+
+def read_eeproms(path: Path | None, count: int) -> list[Eeprom]:
+    """One for each controller of a chain: FILE, FILE.1, FILE.2 …; in memory without a file."""
+    if path is None:
+        return [Eeprom() for _ in range(count)]
+    return [Eeprom(path.with_name(f"{path.name}.{place}") if place else path) for place in range(count)]

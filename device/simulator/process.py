@@ -33,12 +33,14 @@ class SimulatorProcess:
         eeprom: Path | None = None,
         tcp: str = "127.0.0.1:0",
         handshake: bool = True,
+        chain: int | None = None,
     ) -> None:
         command = [sys.executable, "-m", "device.simulator", "--control", "--controller", model]
         command += ["--pty"] if pty else ["--tcp", tcp]
         command += ["--baud", str(baud)] if baud else []
         command += ["--plant", str(plant)] if plant else []
         command += ["--eeprom", str(eeprom)] if eeprom else []
+        command += ["--chain", str(chain)] if chain else []
         command += [] if handshake else ["--no-handshake"]
         self._process = subprocess.Popen(
             command,

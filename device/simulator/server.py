@@ -7,20 +7,24 @@ import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final, Protocol, TextIO
 
 from device.simulator.times import CHARACTER_BITS, TICKS
 
 if TYPE_CHECKING:
+    from codegen.models import Model
+    from device.simulator.eeprom import Eeprom
     from device.simulator.lines import Line
     from device.simulator.loops import SampleLoop
     from device.simulator.motion import Motion
+    from device.simulator.plant import Plant
     from device.simulator.uart import Uart
 
 SLICE_S: Final = 0.005
 FELL_BEHIND_S: Final = 0.5  # after that (a suspended computer) virtual time does not hurry to catch up
 UNPACED_BYTES: Final = 4096
+MOST_IN_CHAIN: Final = 8  # dmc-1412-1414.txt l.1302
 RECORDS_KEPT: Final = 200  # newest messages and errors that `state` tells; a served controller runs for days
 
 
@@ -147,6 +151,30 @@ class ControlLines:
                 simulation.stimulus(signal, value)
             except (KeyError, ValueError) as reason:
                 print(f"twoletter: {reason.args[0]}", file=sys.stderr, flush=True)
+
+
+def maker(
+    model: Model,
+    plants: Mapping[str, Plant] | None,
+    eeproms: Sequence[Eeprom],
+    *,
+    chain: bool = False,
+    baud: int | None = None,
+    seed: int = 0,
+    handshake: bool = True,
+) -> Callable[[], Served]:
+    """Makes one controller, or a chain of as many as there are EEPROMs, on the plain loop; loads them only then."""
+
+    def make() -> Served:
+        if chain:
+            from device.simulator.chain import make_chain
+
+            return make_chain(model, plants, eeproms, baud=baud, seed=seed, compiled=False, handshake=handshake)
+        from device.simulator.simulation import Simulation
+
+        return Simulation(model, plants, eeproms[0], baud=baud, seed=seed, compiled=False, handshake=handshake)
+
+    return make
 
 
 def serve(make: Callable[[], Served], line: Line, *, control: bool = False) -> None:

@@ -34,6 +34,9 @@ class Uart:
     stopped: bool = False  # the host sent XOFF
     history: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # tick, character clocked in
 
+    passing: bool = False  # what comes in is also for the next controller of a daisy chain
+    passed: bytearray = field(default_factory=bytearray)
+
     # ------------------------------------------------------------ host's side
 
     def receive(self, data: bytes, now: int) -> None:
@@ -67,6 +70,12 @@ class Uart:
         if self.incoming_end is None and self.line:
             self._start_incoming(now)
         return byte
+
+    def take_passed(self) -> bytes:
+        """What has come in for the next controller since the last call."""
+        data = bytes(self.passed)
+        self.passed.clear()
+        return data
 
     def send(self, data: bytes, now: int) -> None:
         """Queues characters for the host."""
@@ -131,6 +140,8 @@ class Uart:
         self.line_free = self.incoming_end
         byte = self.line.popleft()
         self.history.append((-(-self.line_free // (self.baud or 1)), byte))
+        if self.passing:
+            self.passed.append(byte)
         if len(self.buffer) < self.receive_size:
             self.buffer.append(byte)
         else:

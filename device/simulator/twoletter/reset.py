@@ -61,6 +61,7 @@ def _load(unit: Unit) -> None:
     before = unit.state
     state = unit.state = fresh(unit.model)
     state.inputs, state.analog, state.abort_input = before.inputs, before.analog, before.abort_input
+    state.selected, state.ports[0].silent = before.selected, not before.selected  # %n stays until the next
     state.clock_offset = unit.sample
     registers.load_defaults(state, unit.model)
     state.settings["LZ"] = unit.profile.leading_zeros_removed * ONE

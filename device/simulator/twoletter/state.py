@@ -72,6 +72,7 @@ class Port:
 
     number: int
     mode: str = "command"  # command, download, array, edit
+    silent: bool = False  # another controller of the daisy chain answers
     text: bytearray = field(default_factory=bytearray)  # the line being received
     too_long: bool = False
     control: bool = False  # ^R was the last character
@@ -156,6 +157,7 @@ class State:
     cam_interval: list[int] = field(default_factory=lambda: [256, 0])  # EP
     tangent: list[int] = field(default_factory=lambda: [0, 0])  # TN
     recording: Recording = field(default_factory=Recording)
+    selected: bool = True  # the last %n was this one's address
     brushless: bool = False  # BA
     field_test: FieldTest | None = None  # BZ, BS
     analog: list[int] = field(default_factory=lambda: [0] * 8)  # 1/65536 V

@@ -246,6 +246,7 @@ class Interpreter:
 
     def _end_line(self, port: Port) -> None:
         port.pending, port.position = None, 0
+        port.silent = port.number == 1 and not self.unit.state.selected
         wire.take_characters(self.unit, port)
         self.unit.changed = True
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from codegen.models import Model
-from codegen.twoletter.fixed import places, string_text
+from codegen.twoletter.fixed import ONE, places, string_text
 from codegen.twoletter.format import format_number
 from codegen.twoletter.nodes import Format
 from codegen.twoletter.problems import ERROR_TEXTS
@@ -48,6 +48,8 @@ class Unit:
         self.uarts = uarts
         self.eeprom = eeprom
         self.stepper_jumpers = tuple(jumpers)
+        self.chained = False  # one of a daisy chain: at power-up only address 0 listens
+        self.jumper_address = 0  # JP20 of an SSC
         self.hall_mask = motion.commutation.hall_mask()
         self.records = Records()
         self.notices: list[str] = []
@@ -75,6 +77,16 @@ class Unit:
         """Levels of the inputs, bit 0 = input 1; hall sensors drive theirs."""
         levels = self.state.inputs
         return levels & ~self.hall_mask | self.motion.inputs() & self.hall_mask if self.hall_mask else levels
+
+    @property
+    def address(self) -> int:
+        """Its place in a daisy chain: SA, or the jumpers JP20 of an SSC (SSC manual l.1199)."""
+        return self.jumper_address if self.model.family == "ssc" else self.state.settings["SA"] // ONE
+
+    def choose_at_start(self) -> None:
+        """Who is talked to before the first %n: the only one, or address 0."""
+        self.state.selected = not self.chained or self.address == 0
+        self.state.ports[0].silent = not self.state.selected
 
     def end_field(self) -> None:
         """BZ or BS is over: the motor is off, the phase here is that of the field."""
@@ -188,7 +200,9 @@ class Unit:
             self.unsolicited(1, text + "\r\n")
 
     def reply(self, port: int, data: bytes) -> None:
-        """Bytes that a port expects."""
+        """Bytes that a port expects; not from a controller that was not spoken to."""
+        if self.state.ports[port - 1].silent:
+            return
         uart = self.uarts[port - 1]
         uart.run(self.clock.now)
         uart.send(data, self.clock.now)

@@ -17,6 +17,8 @@ ENTER, BACKSPACE, XON, CONTROL_R, XOFF, CONTROL_V, RUBOUT = 0x0D, 0x08, 0x11, 0x
 END_OF_DATA: Final = frozenset(b"\\\x1a\x11\x04")  # dmc-1412-1414.txt l.3408
 ACCEPTED: Final = b":"
 REFUSED: Final = b"?"
+ADDRESSES: Final = tuple("01234567")
+BAD_ADDRESS: Final = 6
 BUFFER_FULL, BAD_NUMBER, TOO_MANY_ELEMENTS = 5, 83, 84
 
 
@@ -40,13 +42,13 @@ def _character(unit: Unit, port: Port, byte: int) -> None:
         editor.key(unit, port, byte)
     elif port.mode in ("download", "array"):
         _data_character(unit, port, byte)
-    elif operator.data_mode(unit, port) and waiting_input(unit, port) is None:
+    elif operator.data_mode(unit, port) and spoken_to(unit, port) and waiting_input(unit, port) is None:
         operator.character(unit, port, byte)
     elif port.control:
         port.control = False
         if byte == CONTROL_V:
             unit.reply(port.number, unit.revision().encode("latin-1") + b"\r\n" + ACCEPTED)
-        elif byte == XOFF:
+        elif byte == XOFF and spoken_to(unit, port):
             unit.master_reset()
     else:
         _line_character(unit, port, byte)
@@ -78,10 +80,17 @@ def _line_character(unit: Unit, port: Port, byte: int) -> None:
             port.too_long = True
 
 
+def spoken_to(unit: Unit, port: Port) -> bool:
+    """Port 1 is this controller's: it is alone, or the last %n was its address."""
+    return port.number != 1 or unit.state.selected
+
+
 def waiting_input(unit: Unit, port: Port) -> Wait | None:
     """The IN that waits for an answer from this port."""
     wait = unit.state.threads[0].wait
-    return wait if wait is not None and wait.kind == "input" and wait.number == port.number else None
+    if wait is None or wait.kind != "input" or wait.number != port.number or not spoken_to(unit, port):
+        return None
+    return wait
 
 
 def _line_end(unit: Unit, port: Port) -> None:
@@ -96,9 +105,22 @@ def _line_end(unit: Unit, port: Port) -> None:
     elif too_long:
         _refuse(unit, port, BUFFER_FULL)
     else:
-        if text.lstrip().startswith(("%", "!")):
-            unit.notice("% and ! are not simulated: daisy chains are not part of this version")
-        port.pending, port.position = text, 0
+        _command_line(unit, port, text)
+
+
+def _command_line(unit: Unit, port: Port, text: str) -> None:
+    """`%n` chooses who is talked to, `!` is for all and answered by address 0 (dmc-1412-1414.txt l.1305)."""
+    state, line = unit.state, text.lstrip(" ")
+    if line.startswith("%"):
+        if line[1:2] not in ADDRESSES:
+            _refuse(unit, port, BAD_ADDRESS)
+            return
+        state.selected = int(line[1]) == unit.address
+        text = line[2:].lstrip("; ")
+    for_all = line.startswith("!")
+    port.silent = unit.address != 0 if for_all else not state.selected
+    if for_all or state.selected:
+        port.pending, port.position = line[1:] if for_all else text, 0
         unit.changed = True
 
 
@@ -113,9 +135,10 @@ def _answer(unit: Unit, wait: Wait, text: str) -> None:
 
 
 def _refuse(unit: Unit, port: Port, code: int) -> None:
-    unit.state.error_code = code
     port.text.clear()
-    unit.reply(port.number, REFUSED)
+    if spoken_to(unit, port):
+        unit.state.error_code = code
+        unit.reply(port.number, REFUSED)
 
 
 # ------------------------------------------------------------------ downloads

@@ -158,10 +158,3 @@ def test_stop_burst_in_command_mode() -> None:
     answer = bench.type("\x11\x1b\\ST\rST\r")
     assert answer == "?:"
     assert not bench.simulation.unit.running()
-
-
-def test_daisy_chain_prefixes_are_refused_with_a_notice() -> None:
-    bench = Bench()
-    assert bench.type("%0\r") == "?"
-    assert bench.type("!BG\r") == "?"
-    assert bench.simulation.notices == ["% and ! are not simulated: daisy chains are not part of this version"]
