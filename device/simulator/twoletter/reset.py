@@ -78,8 +78,7 @@ def _load(unit: Unit) -> None:
 
 def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
     state, motion = unit.state, unit.motion
-    if state.settings["TM"] > 0:
-        unit.set_sample_time(state.settings["TM"] // ONE)
+    registers.follow_sample_time(unit)
     registers.put_all(unit)
     kind = "none" if unit.model.family == "ssc" else "auxiliary"
     for axis in unit.axes():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from codegen.twoletter.problems import ERROR_TEXTS
+from device.simulator.eeprom import Eeprom
 from device.simulator.plant import Plant
 from tests.device.simulator.bench import MS, Bench
 
@@ -316,12 +317,16 @@ def test_a_stepper_needs_its_jumper() -> None:
 
 
 def test_an_external_clock_is_said_to_be_missing() -> None:
-    bench = Bench("dmc1412")
-    bench.ask("TM -1;WT 10")
+    eeprom = Eeprom()
+    bench = Bench("dmc1412", eeprom=eeprom)
+    bench.ask("TM 2000;TM -1;WT 10")
+    assert bench.simulation.unit.clock.period == 2000  # the last sample time goes on
     assert bench.ask("TM?") == "-00001"
     assert bench.simulation.notices == [
         "an external sample clock (negative TM) is not simulated: the last sample time goes on"
     ]
+    bench.type("BN\r", 500)  # SSC manual l.1231: burned in all but one
+    assert Bench("dmc1412", eeprom=eeprom).simulation.notices == bench.simulation.notices
 
 
 @pytest.mark.parametrize("operand", ["_VS", "_LM", "_AV", "_VE", "_CS"])

@@ -52,6 +52,16 @@ def _speed(unit: Unit, axis: int, value: int) -> None:
 
 
 def _sample_time(unit: Unit, axis: int, value: int) -> None:
+    follow_sample_time(unit)
+
+
+def follow_sample_time(unit: Unit) -> None:
+    """TM; negative takes the clock of another controller (SSC manual l.1231), here the last sample time goes on.
+
+    There is no such wire in the simulator. The controllers of a simulated chain share one time, so with the same TM
+    their samples coincide without it.
+    """
+    value = unit.state.settings["TM"]
     if value < ONE:
         unit.notice("an external sample clock (negative TM) is not simulated: the last sample time goes on")
     else:
