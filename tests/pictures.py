@@ -1,4 +1,7 @@
-"""Takes a picture of every window and dialog, light and dark, at 100 % and 200 %: `python -m tests.pictures OUT`."""
+"""Takes a picture of every window and dialog, light and dark, at 100 % and 200 %: `python -m tests.pictures OUT`.
+
+`python -m tests.pictures --shown` takes those that README and help show, into resources/help/pictures.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,12 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from PySide6.QtWidgets import QWidget
+
+    from tests.stage import Stage
 
 SCALES = (1, 2)
 THEMES = ("light", "dark")
@@ -18,27 +27,58 @@ def main(arguments: list[str]) -> int:
     if arguments[:1] == ["--one"]:
         take(Path(arguments[1]), arguments[2], int(arguments[3]))
         return 0
+    if arguments[:1] == ["--one-shown"]:
+        take_shown(arguments[1])
+        return 0
+    if arguments[:1] == ["--shown"]:
+        for theme in THEMES:
+            _in_a_process("--one-shown", theme, scale=1)
+        return 0
     out = Path(arguments[0] if arguments else "pictures")
     out.mkdir(parents=True, exist_ok=True)
     for theme in THEMES:
         for scale in SCALES:
-            surroundings = {"QT_QPA_PLATFORM": "offscreen", **os.environ, "QT_SCALE_FACTOR": str(scale)}
-            command = [sys.executable, "-m", "tests.pictures", "--one", str(out), theme, str(scale)]
-            subprocess.run(command, check=True, env=surroundings)
+            _in_a_process("--one", str(out), theme, str(scale), scale=scale)
     print(f"{len(list(out.glob('*.png')))} pictures in {out}")
     return 0
 
 
+def _in_a_process(*arguments: str, scale: int) -> None:
+    surroundings = {"QT_QPA_PLATFORM": "offscreen", **os.environ, "QT_SCALE_FACTOR": str(scale)}
+    subprocess.run([sys.executable, "-m", "tests.pictures", *arguments], check=True, env=surroundings)
+
+
 def take(out: Path, theme: str, scale: int) -> None:
     """Everything in one theme at one scale."""
-    from PySide6.QtWidgets import QApplication, QWidget
+    from PySide6.QtWidgets import QApplication
 
     application = QApplication.instance() or QApplication([])
     with tempfile.TemporaryDirectory() as folder:
-        for name, widget in scenes(application, Path(folder), theme):
+        for name, widget in scenes(Path(folder), theme):
             settle()
-            grabbed: QWidget = widget
-            grabbed.grab().save(str(out / f"{name}-{theme}-{scale}00.png"))
+            widget.grab().save(str(out / f"{name}-{theme}-{scale}00.png"))
+    del application
+
+
+def take_shown(theme: str) -> None:
+    """The pictures of README and help: the studio with the simulator running the wire cutter."""
+    from PySide6.QtWidgets import QApplication
+
+    import resources
+    from tests.stage import make_studio
+
+    application = QApplication.instance() or QApplication([])
+    with tempfile.TemporaryDirectory() as folder:
+        stage = make_studio(Path(folder), theme=theme)
+        stage.studio.window.resize(1280, 800)
+        stage.studio.window.show()
+        settle()
+        running(stage, "simulator")
+        settle()
+        name = "program" if theme == "light" else f"program-{theme}"
+        stage.studio.window.grab().save(str(resources.path(f"help/pictures/{name}.png")))
+        stage.studio.close()
+    del application
 
 
 def settle() -> None:
@@ -49,7 +89,7 @@ def settle() -> None:
         QApplication.processEvents()
 
 
-def scenes(application: object, folder: Path, theme: str) -> Iterator[tuple[str, object]]:
+def scenes(folder: Path, theme: str) -> Iterator[tuple[str, QWidget]]:
     """Name and widget of every picture, in an order in which each needs only the ones before."""
     from tests.stage import make_studio
 
@@ -58,19 +98,15 @@ def scenes(application: object, folder: Path, theme: str) -> Iterator[tuple[str,
     window.resize(1280, 800)
     window.show()
     settle()
-    yield from _offline(stage)
-    stage.connect()
-    stage.go()
-    yield "window-simulator", window
-    for kind in ("machine", "replay"):
-        stage.connect(kind)
-        stage.go()
+    yield "window-offline", window
+    for kind in ("simulator", "machine", "replay"):
+        running(stage, kind)
         yield f"window-{kind}", window
     yield from _states(stage)
     for dock, layout in (("Simulator", "Program"), ("Inspector", "Program"), ("Terminal", "Run"), ("Messages", "Run")):
-        stage.connect("simulator")
+        running(stage, "simulator")
         studio.desk.arrange(layout)
-        stage.chatter()
+        stage.type("MG _TPX", "KP 5000", "TI")
         window.docks[dock].raise_()
         stage.go()
         yield f"panel-{dock.lower()}", window
@@ -79,13 +115,13 @@ def scenes(application: object, folder: Path, theme: str) -> Iterator[tuple[str,
     studio.close()
 
 
-def _program(stage: object) -> Iterator[tuple[str, object]]:
+def _program(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     from codegen.instructions import ALL
 
-    program = stage.studio.program  # type: ignore[attr-defined]
+    program = stage.studio.program
     for mode in ("both", "code"):
         program.set_view(mode)
-        yield f"program-{mode}", stage.studio.window  # type: ignore[attr-defined]
+        yield f"program-{mode}", stage.studio.window
     program.set_view("program")
     for kind in ALL:
         dialog = program.dialogs.add(kind)
@@ -93,32 +129,58 @@ def _program(stage: object) -> Iterator[tuple[str, object]]:
         dialog.reject()
 
 
-def _offline(stage: object) -> Iterator[tuple[str, object]]:
-    yield "window-offline", stage.studio.window  # type: ignore[attr-defined]
+def running(stage: Stage, kind: str) -> None:
+    """The open program in a machine, executing, half-way through its move, everything read afresh."""
+    from device.api import LineSettings
+
+    studio = stage.studio
+    if kind == "replay":
+        rig = stage.connect(kind, studio.model(), program=studio.session.listing.text)
+        rig.simulation.execute("#CUTTER")
+    else:
+        line = LineSettings(baud=None if kind == "simulator" else 19200)
+        rig = stage.connect(kind, studio.model(), line=line)
+        stage.download()
+        studio.run.execute()
+    stage.until(lambda: rig.simulation.state()["axes"]["X"]["commanded"] > 1500)
+    moment = stage.clock.now
+    keys = ("position.x", "thread0")  # what the status bar shows, whatever panel is in front
+    stage.until(lambda: all(rig.controller.last().time(key) > moment for key in keys))
+    stage.go(12)
 
 
-def _states(stage: object) -> Iterator[tuple[str, object]]:
-    from device.api import Prompt, StopState
+def _states(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    from device.api import State, StopState
 
-    studio = stage.studio  # type: ignore[attr-defined]
-    for state in (StopState.STOPPING, StopState.STOPPED, StopState.NOT_CONFIRMED, StopState.NO_LINK):
-        stage.controller.stop_state = state  # type: ignore[attr-defined]
-        stage.go()  # type: ignore[attr-defined]
-        yield f"stop-{state.name.lower()}", studio.window.header.stop
-    stage.controller.stop_state = StopState.READY  # type: ignore[attr-defined]
-    stage.controller.pending_prompt = Prompt("Length in inches?", (12,))  # type: ignore[attr-defined]
-    stage.later(12.0)  # type: ignore[attr-defined]
-    stage.go()  # type: ignore[attr-defined]
-    yield "window-question", studio.window
-    stage.controller.pending_prompt = None  # type: ignore[attr-defined]
-    stage.later(0.0)  # type: ignore[attr-defined]
+    button = stage.studio.window.header.stop
+    rig = stage.connect("machine", scene="jogging")
+    stage.controller.stop()
+    stage.go(1)
+    yield "stop-stopping", button
+    stage.until(lambda: stage.controller.stop_state is StopState.STOPPED)
+    stage.go()
+    yield "stop-stopped", button
+    rig.cut()
+    stage.controller.stop()
+    stage.later(0.6)
+    stage.go(1)
+    yield "stop-not-confirmed", button
+    rig = stage.connect("machine", answers=False, openable=False)
+    stage.until(lambda: stage.controller.state is State.LOST)
+    stage.go()
+    yield "stop-no-link", button
+    yield "window-lost", stage.studio.window
+    stage.question("simulator", stage.studio.model())
+    stage.later(12.0)
+    stage.go()
+    yield "window-question", stage.studio.window
 
 
-def _dialogs(stage: object) -> Iterator[tuple[str, object]]:
+def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     from app.crash import CrashDialog
     from codegen.setup import Unit
 
-    studio = stage.studio  # type: ignore[attr-defined]
+    studio = stage.studio
     desk, start = studio.desk, studio.start
     start.welcome_window().show_looking("Asking USB serial (/dev/ttyUSB0) at 9600 baud…")
     yield "welcome-looking", start.welcome

@@ -1,9 +1,12 @@
-"""A whole studio with a fake controller, for tests of the application and for pictures."""
+"""A whole studio on simulated controllers in virtual time, for tests of the application and for pictures."""
 
 from __future__ import annotations
 
+import shutil
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtWidgets import QApplication
 
@@ -13,8 +16,34 @@ from app.connection import Opened
 from app.search import Candidate
 from app.settings import Settings
 from app.studio import help_pages
-from device.api import Kind, LineSettings, NoticeKind
-from tests.fakes import FakeController, FakeWorld, live_row
+from app.which_model import known_models
+from device.api import Badge, Controller, Kind, LineSettings, State
+from tests.rig import Rig
+
+TICK_S = 0.033
+ASKS = 12  # the line of the question
+LENGTH = "\n".join(["#A", *(f"N={number}" for number in range(1, ASKS)), 'IN "Length?",LEN', "JP #A,LEN<0", "EN"])
+
+
+class Clock:
+    """The time of the stage; controllers run along."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+        self.rigs: list[Rig] = []
+
+    def __call__(self) -> float:
+        return self.now
+
+    def add(self, rig: Rig) -> Rig:
+        self.rigs.append(rig)
+        return rig
+
+    def pass_by(self, seconds: float) -> None:
+        end = self.now + seconds
+        for rig in self.rigs:
+            rig.run_to(end)
+        self.now = max([end, *(rig.clock() for rig in self.rigs if not rig.closed)])
 
 
 @dataclass
@@ -22,67 +51,105 @@ class Stage:
     """The studio, what it is connected to, and the hands of its clock."""
 
     studio: Studio
-    controllers: list[FakeController]
-    world: FakeWorld
+    clock: Clock
     ports: list[Candidate]
-    now: list[float] = field(default_factory=lambda: [0.0])
+    silent: set[str] = field(default_factory=set)  # ports at which nobody answers
 
     @property
-    def controller(self) -> FakeController:
+    def controller(self) -> Controller:
         """What is connected."""
-        controller = self.studio.connection.controller
-        assert isinstance(controller, FakeController)
-        return controller
+        return self.studio.connection.controller
 
-    def connect(self, kind: str = "simulator", model: str = "ssc2") -> FakeController:
-        """Another fake controller, with live values and the program of the document in it."""
-        fake = FakeController(Kind(kind), model)
-        fake.row = live_row()
-        fake.listing = self.studio.session.listing.text
-        self.studio.connection.adopt(Opened(fake, self.world if kind == "simulator" else None), kind)
-        return fake
+    @property
+    def rigs(self) -> list[Rig]:
+        """Every simulated machine that was ever opened."""
+        return self.clock.rigs
+
+    @property
+    def rig(self) -> Rig:
+        """The simulated machine behind what is connected."""
+        return next(rig for rig in self.rigs if rig.controller is self.controller)
+
+    @property
+    def controllers(self) -> list[Controller]:
+        return [rig.controller for rig in self.rigs]
+
+    def connect(self, kind: str = "simulator", model: str = "ssc2", answers: bool = True, **more: Any) -> Rig:
+        """Another machine, in the situation that is asked for; waits until it has answered."""
+        rig = self.clock.add(Rig(kind, model, began=self.clock.now, **more))
+        self.studio.connection.adopt(Opened(rig.controller, rig.simulation if kind == "simulator" else None), kind)
+        if answers:
+            self.until(lambda: rig.controller.state is State.READY)
+        return rig
 
     def go(self, ticks: int = 3) -> None:
         """Some ticks, and what Qt has to do between them."""
         for _ in range(ticks):
+            self.clock.pass_by(TICK_S)
             self.studio.tick.once()
             QApplication.processEvents()
 
-    def later(self, now: float) -> None:
-        """Sets the clock."""
-        self.now[0] = now
+    def until(self, true: Callable[[], object], seconds: float = 20.0) -> None:
+        """Ticks until it is true; a failure when that takes too long."""
+        end = self.clock.now + seconds
+        while not true():
+            assert self.clock.now < end, f"not within {seconds:g} s"
+            self.go(1)
 
-    def chatter(self) -> None:
-        """A conversation for the terminal and the messages."""
-        fake, terminal = self.controller, self.studio.terminal
-        for style, text in (
-            ("typed", "MG _TPX"),
-            ("reply", "6370.0000"),
-            ("typed", "PR ,5000,,9"),
-            ("said", "LENGTH 10.00"),
-        ):
-            terminal.write(style, text)
-        terminal.write("refused", "PR ,5000,,9: refused, error 4, Operand error.")
-        fake.say(NoticeKind.IDENTIFIED, "Connected to SSC2.")
-        fake.say(NoticeKind.DOWNLOAD, "Downloaded and verified: 14 lines in 0.4 s.")
-        fake.say(NoticeKind.MESSAGE, "LENGTH 10.00")
+    def later(self, seconds: float) -> None:
+        """Much time passes between two ticks."""
+        self.clock.pass_by(seconds)
+
+    def download(self) -> Rig:
+        """Control is taken, and the open program is in the controller, verified."""
+        self.controller.take_control()
+        self.studio.run.download()
+        self.until(lambda: self.controller.program_badge is Badge.SAME and not self.studio.run.doing)
+        return self.rig
+
+    def question(self, kind: str = "machine", model: str = "ssc2") -> Rig:
+        """A machine whose program was started from here and asks for a length."""
+        rig = self.connect(kind, model, program=LENGTH)
+        rig.controller.take_control()
+        rig.controller.execute(anyway=True)
+        self.until(lambda: rig.controller.pending_prompt is not None)
+        return rig
+
+    def type(self, *commands: str) -> None:
+        """Commands typed into the terminal, and what came of them."""
+        terminal = self.studio.terminal
+        self.studio.desk.bring("Terminal")
+        self.go()
+        for command in commands:
+            count = terminal.log.blockCount()
+            terminal.line.setText(command)
+            terminal.send.click()
+            self.until(lambda count=count: terminal.log.blockCount() >= count + 2)
 
 
 def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.tlp") -> Stage:
-    """A studio that is offline, with an example program open, its ports invented and its clock standing still."""
+    """A studio that is offline, with an example program open, its ports invented and its time in our hands."""
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     settings = Settings(folder / "settings.json")
     settings.set("theme", theme)
-    world, controllers, now = FakeWorld(), [], [0.0]
+    clock, silent = Clock(), set[str]()
     ports = [Candidate("/dev/ttyUSB0", "USB serial adapter", False)]
 
     def connect(address: str, line: LineSettings) -> Opened:
-        fake = FakeController(Kind.SIMULATOR if address.startswith("simulator") else Kind.MACHINE)
-        controllers.append(fake)
-        return Opened(fake, world)
+        simulated = address.startswith("simulator:")
+        rig = Rig(
+            Kind.SIMULATOR if simulated else Kind.MACHINE,
+            address.partition(":")[2] if simulated else "ssc2",
+            line=line,
+            began=clock.now,
+            silent=address in silent,
+            known_models=known_models(settings),
+        )
+        clock.add(rig)
+        return Opened(rig.controller, rig.simulation if simulated else None)
 
-    studio = Studio(application, settings, folder, connect, lambda: list(ports), help_pages(), clock=lambda: now[0])
-    if example:
-        studio.session.open(resources.path(f"examples/{example}"))
-    return Stage(studio, controllers, world, ports, now)
+    studio = Studio(application, settings, folder, connect, lambda: list(ports), help_pages(), clock=clock)
+    if example:  # a copy: whatever is clicked, the one that is shipped stays as it is
+        studio.session.open(Path(shutil.copy(resources.path(f"examples/{example}"), folder)))
+    return Stage(studio, clock, ports, silent)

@@ -6,18 +6,23 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
 from pytestqt.qtbot import QtBot
 
 from tests.stage import Stage, make_studio
 
 
 @pytest.fixture
-def stage(qtbot: QtBot, tmp_path: Path) -> Iterator[Stage]:
+def stage(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
     """Offline, the wire cutter open, shown."""
+    monkeypatch.chdir(tmp_path)
     stage = make_studio(tmp_path)
-    qtbot.addWidget(stage.studio.window)
     stage.studio.window.resize(1280, 800)
     stage.studio.window.show()
     stage.go()
     yield stage
     stage.studio.close()
+    window = stage.studio.window
+    window.hide()
+    window.deleteLater()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
+from collections.abc import Callable
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from codegen.instructions import Label
-from device.api import Badge, Downloaded, DownloadFailed, NotAllowed, NoticeKind
-from tests.fakes import failed
+from device.api import Badge, State
+from tests.rig import Rig
 from tests.stage import Stage
 
-DONE = Downloaded(True, "Downloaded and verified: 14 lines.", None, 0.4)
+OTHER = "#A\nPR 100\nEN"
 
 
 def asked(stage: Stage) -> tuple[str, list[str]]:
@@ -29,139 +29,204 @@ def answer(stage: Stage, label: str) -> None:
     stage.go()
 
 
-def calls(stage: Stage, name: str) -> list[object]:
-    return [each for each in stage.controller.calls if each == name or (isinstance(each, tuple) and each[0] == name)]
-
-
-def same_model(stage: Stage, kind: str = "simulator") -> None:
-    stage.connect(kind, stage.studio.model())
+def same_model(stage: Stage, kind: str = "simulator", **more: str) -> Rig:
+    """A controller of the type that the open program is for, with Control."""
+    rig = stage.connect(kind, stage.studio.model(), **more)
+    rig.controller.take_control()
     stage.go()
+    return rig
+
+
+def code(stage: Stage) -> list[str]:
+    return stage.studio.session.listing.text.rstrip("\n").split("\n")
+
+
+def idle(stage: Stage) -> None:
+    """Waits until nothing is under way with the controller's memory."""
+    stage.until(lambda: not stage.studio.run.doing)
+
+
+def trigger(stage: Stage, name: str) -> None:
+    action = stage.studio.actions[name]
+    assert action.isEnabled(), action.statusTip()
+    action.trigger()
 
 
 def test_download_sends_the_listing_shows_progress_and_says_it_was_verified(stage: Stage) -> None:
-    same_model(stage)
-    stage.studio.actions["download"].trigger()
-    assert calls(stage, "download") == [("download", stage.studio.session.listing.text)]
-    stage.controller.job.phase, stage.controller.job.done = "sending", 40
-    stage.go()
-    progress = stage.studio.window.status.progress
+    rig = same_model(stage)
+    trigger(stage, "download")
+    progress, job = stage.studio.window.status.progress, stage.studio.run.job
+    assert job is not None
+    stage.until(lambda: "sending" in progress.words.text() and progress.bar.value() > 0)
     assert progress.isVisible()
-    assert "sending" in progress.words.text()
-    assert progress.bar.value() == 400
+    assert progress.bar.value() == round(1000 * job.done / job.total) < 1000
     assert "Downloading" in stage.studio.actions["download"].statusTip()
-    stage.controller.job.future.set_result(DONE)
-    stage.go()
+    idle(stage)
     assert not progress.isVisible()
-    assert DONE.sentence in stage.studio.messages.texts()
+    assert rig.program == code(stage)
+    assert f"{len(code(stage))} lines downloaded and verified." in stage.studio.messages.texts()
 
 
 def test_cancel_gives_the_download_up(stage: Stage) -> None:
-    same_model(stage)
-    stage.studio.actions["download"].trigger()
-    stage.go()
-    QTest.mouseClick(stage.studio.window.status.progress.cancel, Qt.MouseButton.LeftButton)
-    assert stage.controller.job.cancelled
+    rig = same_model(stage)
+    trigger(stage, "download")
+    progress = stage.studio.window.status.progress
+    stage.until(lambda: "sending" in progress.words.text())
+    QTest.mouseClick(progress.cancel, Qt.MouseButton.LeftButton)
+    idle(stage)
+    assert "cancelled at line" in stage.studio.messages.texts()[-1]
+    assert len(rig.program) < len(code(stage))
+    assert rig.controller.program_badge is Badge.UNKNOWN
 
 
 def test_a_failed_download_is_one_sentence(stage: Stage) -> None:
-    same_model(stage)
-    stage.studio.actions["download"].trigger()
-    stage.controller.job.future.set_exception(DownloadFailed("The controller refused line 3."))
-    stage.go()
-    assert stage.studio.messages.texts()[-1] == "The controller refused line 3."
-    assert stage.studio.run.doing == ""
+    rig = same_model(stage)
+    trigger(stage, "download")
+    stage.until(lambda: "sending" in stage.studio.window.status.progress.words.text())
+    rig.cut()
+    idle(stage)
+    said = stage.studio.messages.texts()[-1]
+    assert said.startswith("Download ended ")
+    assert "the connection was lost" in said
+    assert "\n" not in said
 
 
 def test_another_model_than_the_setups_is_asked_about(stage: Stage) -> None:
     assert stage.studio.model() != "ssc2"
-    stage.connect("simulator", "ssc2")
+    rig = stage.connect("simulator", "ssc2")
     stage.go()
-    stage.studio.actions["download"].trigger()
+    trigger(stage, "download")
     words, answers = asked(stage)
     assert "SSC2" in words
     assert answers == ["Download anyway"]
-    assert not calls(stage, "download")
+    stage.go(30)
+    assert rig.program == []
     answer(stage, "Download anyway")
-    assert len(calls(stage, "download")) == 1
+    idle(stage)
+    assert rig.program == code(stage)
 
 
 def test_a_program_with_a_problem_is_not_downloaded_and_the_problem_is_shown(stage: Stage) -> None:
-    same_model(stage)
+    rig = same_model(stage)
     session = stage.studio.session
     session.insert([Label(name="")])
-    stage.studio.actions["download"].trigger()
-    assert not calls(stage, "download")
+    trigger(stage, "download")
     answer(stage, "Show it")
+    stage.go(30)
+    assert rig.program == []
+    assert "DL" not in rig.lines
     assert stage.studio.program.current_step() == session.listing.problems[0].step
 
 
 def test_execute_runs_the_verified_program_at_its_label(stage: Stage) -> None:
-    same_model(stage)
-    stage.controller.program_badge = Badge.SAME
-    stage.studio.actions["execute"].trigger()
-    assert calls(stage, "execute") == [("execute", "CUTTER", False)]
+    rig = same_model(stage)
+    rig.simulation.stimulus("in1", 0)
+    stage.download()
+    trigger(stage, "execute")
+    stage.until(lambda: rig.running == [code(stage).index("AI 1")])
+    assert rig.sent("XQ") == ["XQ #CUTTER,0"]
+    assert stage.studio.messages.texts()[-1] == "The program runs."
 
 
-@pytest.mark.parametrize("badge", [Badge.CHANGED, Badge.UNKNOWN])
-def test_execute_asks_which_program_is_meant(stage: Stage, badge: Badge) -> None:
-    same_model(stage)
-    stage.controller.program_badge = badge
-    stage.studio.actions["execute"].trigger()
-    assert not calls(stage, "execute")
+def changed(stage: Stage) -> Rig:
+    rig = same_model(stage)
+    stage.download()
+    stage.studio.session.insert([Label(name="EXTRA")])
+    assert rig.controller.program_badge is Badge.CHANGED
+    return rig
+
+
+def unknown(stage: Stage) -> Rig:
+    rig = same_model(stage, program=OTHER)
+    assert rig.controller.program_badge is Badge.UNKNOWN
+    return rig
+
+
+@pytest.mark.parametrize("situation", [changed, unknown])
+def test_execute_asks_which_program_is_meant(stage: Stage, situation: Callable[[Stage], Rig]) -> None:
+    rig = situation(stage)
+    trigger(stage, "execute")
+    stage.go(30)
+    assert rig.sent("XQ") == []
+    assert rig.running == []
     _, answers = asked(stage)
     assert set(answers) == {
         "Download and execute", "Run what is in the controller", "Show what is in the controller",
     }  # fmt: skip
+    held = rig.program
     answer(stage, "Run what is in the controller")
-    assert calls(stage, "execute") == [("execute", None, True)]
+    stage.until(lambda: stage.studio.messages.texts()[-1] == "The program runs.")
+    assert rig.sent("XQ") == ["XQ"]
+    assert rig.program == held
 
 
 def test_download_and_execute_executes_only_after_the_proof(stage: Stage) -> None:
-    same_model(stage)
-    stage.controller.program_badge = Badge.CHANGED
-    stage.studio.actions["execute"].trigger()
+    rig = changed(stage)
+    rig.simulation.stimulus("in1", 0)
+    trigger(stage, "execute")
     answer(stage, "Download and execute")
-    assert len(calls(stage, "download")) == 1
-    assert not calls(stage, "execute")
-    stage.controller.program_badge = Badge.SAME
-    stage.controller.job.future.set_result(DONE)
-    stage.go()
-    assert calls(stage, "execute") == [("execute", "CUTTER", False)]
+    stage.until(lambda: stage.studio.run.job is not None and stage.studio.run.job.phase == "verifying")
+    assert rig.sent("XQ") == []
+    stage.until(lambda: rig.running)
+    assert rig.sent("XQ") == ["XQ #CUTTER,0"]
+    assert rig.program == code(stage)
+    assert "#EXTRA" in rig.program
 
 
 def test_a_download_that_was_not_verified_executes_nothing(stage: Stage) -> None:
-    same_model(stage)
-    stage.controller.program_badge = Badge.CHANGED
-    stage.studio.actions["execute"].trigger()
+    rig = changed(stage)
+    rig.wear_out("6370", "6371")
+    trigger(stage, "execute")
     answer(stage, "Download and execute")
-    stage.controller.job.future.set_result(dc.replace(DONE, verified=False, sentence="Not verified."))
-    stage.go()
-    assert not calls(stage, "execute")
+    idle(stage)
+    stage.go(30)
+    assert "PR 6371" in rig.program
+    assert rig.sent("XQ") == []
+    assert rig.running == []
+    assert "does not hold the program" in stage.studio.messages.texts()[-1]
 
 
 def test_halt_says_that_it_halted(stage: Stage) -> None:
-    same_model(stage)
-    stage.studio.actions["halt"].trigger()
+    rig = same_model(stage)
+    stage.download()
+    trigger(stage, "execute")
+    stage.until(lambda: rig.moving)
+    trigger(stage, "halt")
+    stage.until(lambda: not rig.moving and not rig.running)
     stage.go()
-    assert calls(stage, "halt") == ["halt"]
+    assert rig.sent("HX") == ["HX;ST"]
     assert "Halted" in stage.studio.messages.texts()[-1]
 
 
 def test_burn_says_what_the_next_power_up_will_do_and_waits_for_the_answer(stage: Stage) -> None:
-    same_model(stage)
-    stage.studio.actions["burn"].trigger()
+    rig = same_model(stage)
+    stage.download()
+    trigger(stage, "burn")
     words, _ = asked(stage)
-    assert words == stage.controller.memory.burn_words()
-    assert not calls(stage, "burn")
+    assert words == "At the next power-up this program is in the controller but does not start: it has no #AUTO."
+    stage.go(30)
+    assert rig.sent("BP") == []
     answer(stage, "Burn")
-    assert calls(stage, "burn") == ["burn"]
+    assert "Burning" in stage.studio.window.status.progress.words.text()
+    idle(stage)
+    assert rig.sent("BP") == ["BP"]
+    rig.simulation.stimulus("reset", 0)
+    stage.later(3.0)
+    assert rig.program == code(stage)
+
+
+def test_what_was_not_burned_is_gone_after_a_power_failure(stage: Stage) -> None:
+    rig = same_model(stage)
+    stage.download()
+    rig.simulation.stimulus("reset", 0)
+    stage.later(3.0)
+    assert rig.program == []
 
 
 def test_upload_shows_the_code_and_where_it_differs(stage: Stage) -> None:
-    same_model(stage)
-    stage.studio.actions["upload"].trigger()
-    stage.controller.job.future.set_result("#A\nPR 100\nEN\n")
-    stage.go()
+    same_model(stage, program=OTHER)
+    trigger(stage, "upload")
+    stage.until(lambda: stage.studio.desk.upload is not None)
     window = stage.studio.desk.upload
     assert window is not None
     assert "differ" in window.words.text()
@@ -170,41 +235,54 @@ def test_upload_shows_the_code_and_where_it_differs(stage: Stage) -> None:
 
 
 def test_a_call_that_is_not_allowed_is_said(stage: Stage) -> None:
-    same_model(stage)
-    stage.controller.halt = lambda: failed(NotAllowed("Not sent: watching only."))  # type: ignore[method-assign]
-    stage.studio.actions["halt"].trigger()
-    stage.go()
-    assert stage.studio.messages.texts()[-1] == "Not sent: watching only."
+    rig = same_model(stage, "machine")
+    rig.controller.release_control()
+    stage.studio.run.halt()
+    stage.until(lambda: "this is Watch" in stage.studio.messages.texts()[-1])
+    assert rig.sent("HX") == []
 
 
 def test_the_badge_says_whether_the_controller_holds_this_program(stage: Stage) -> None:
     same_model(stage)
-    bar = stage.studio.window.run_bar
-    for badge, words in ((Badge.SAME, "In the controller"), (Badge.CHANGED, "Changed"), (Badge.UNKNOWN, "Not known")):
-        stage.controller.program_badge = badge
-        stage.go()
-        assert words in bar.badge.text()
-
-
-def test_a_changed_document_is_told_to_the_controller(stage: Stage) -> None:
-    same_model(stage)
+    badge = stage.studio.window.run_bar.badge
+    assert "Not known" in badge.text()
+    stage.download()
+    stage.go()
+    assert "In the controller" in badge.text()
     stage.studio.session.insert([Label(name="EXTRA")])
-    assert stage.controller.calls[-1] == ("listing", stage.studio.session.listing.text)
+    stage.go()
+    assert "Changed" in badge.text()
+    stage.studio.session.undo()
+    stage.go()
+    assert "In the controller" in badge.text()
+
+
+def test_a_controller_connected_later_is_told_the_document_too(stage: Stage) -> None:
+    same_model(stage, program="\n".join(code(stage)))
+    trigger(stage, "upload")
+    stage.until(lambda: stage.controller.program_badge is Badge.SAME)
 
 
 def test_a_program_error_opens_on_its_instruction(stage: Stage) -> None:
-    same_model(stage)
-    listing = stage.studio.session.listing
-    line = next(number for number, each in enumerate(listing.lines) if each.text.startswith("PR"))
-    stage.controller.say(NoticeKind.FAULT, f"?{line:03} PR6370")
-    stage.go()
-    assert stage.studio.program.current_step() == listing.step_of(line)
-    # code 7 comes from the fake; its text is the controller's (spec/tables.json)
-    assert "Command not valid while running" in stage.studio.messages.texts()[-1]
+    rig = same_model(stage)
+    stage.download()
+    rig.simulation.stimulus("fls_x", 0)
+    trigger(stage, "execute")
+    line = code(stage).index("BG X")
+    stage.until(lambda: "stopped at line" in stage.studio.messages.texts()[-1])
+    assert stage.studio.program.current_step() == stage.studio.session.listing.step_of(line)
+    # error 22 (dmc-1412-1414.txt, TC): begin not possible due to limit switch
+    assert f"line {line}: Begin not possible due to limit switch" in stage.studio.messages.texts()[-1]
+    assert rig.running == []
 
 
 def test_the_executing_line_is_shown_in_the_program(stage: Stage) -> None:
-    same_model(stage)
-    stage.go()
-    listing = stage.studio.session.listing
-    assert stage.studio.program.delegate.executing == {listing.step_of(4): (0,)}
+    rig = same_model(stage)
+    rig.simulation.stimulus("in1", 0)
+    stage.download()
+    trigger(stage, "execute")
+    line = code(stage).index("AI 1")
+    step = stage.studio.session.listing.step_of(line)
+    stage.until(lambda: stage.studio.program.delegate.executing == {step: (0,)})
+    assert rig.running == [line]
+    assert rig.controller.state is State.READY

@@ -16,7 +16,8 @@ from app.which_model import known_models
 from device.api import Kind, State
 from device.find import Found
 from device.transport import LineSettings, OpenFailed
-from tests.stage import Stage
+from tests.rig import Rig
+from tests.stage import ASKS, Stage
 
 KNOWN = Candidate("/dev/ttyS0", "COM port", True)
 NEW = Candidate("/dev/ttyUSB0", "USB serial adapter", False)
@@ -46,26 +47,27 @@ def test_a_known_port_is_tried_first_and_taken_when_it_answers(stage: Stage) -> 
     use(stage, KNOWN)
     begin(stage.studio, None, "ask")
     assert [controller.kind for controller in stage.controllers] == [Kind.MACHINE]
-    stage.go()
-    assert stage.studio.connection.controller is stage.controllers[0]
+    stage.until(lambda: stage.controller is stage.controllers[0])
+    assert stage.controller.state is State.READY
+    assert not stage.controller.control
     assert stage.studio.start.welcome is not None
     assert not stage.studio.start.welcome.isVisible()
 
 
 def test_a_silent_port_ends_in_the_welcome_window_never_in_the_simulator(stage: Stage) -> None:
     use(stage, KNOWN)
+    stage.silent.add(KNOWN.device)
     begin(stage.studio, None, "ask")
-    stage.controllers[0].state = State.CONNECTING
     stage.go()
     assert stage.studio.search.busy
-    stage.later(7.0)
-    stage.go()
+    stage.until(lambda: not stage.studio.search.busy, 7.0)
     welcome = stage.studio.start.welcome_window()
     assert welcome.isVisible()
     assert "No controller" in welcome.heading.text()
     assert "/dev/ttyS0" in welcome.sentence.text()
     assert stage.studio.connection.controller.kind is Kind.OFFLINE
-    assert stage.controllers[0].closed
+    assert stage.rigs[0].closed
+    assert len(stage.rigs) == 1
 
 
 def test_a_new_port_is_not_opened_before_the_person_allows_it(stage: Stage) -> None:
@@ -76,7 +78,7 @@ def test_a_new_port_is_not_opened_before_the_person_allows_it(stage: Stage) -> N
     assert "/dev/ttyUSB0" in welcome.question.text()
     press(welcome.allow)
     assert len(stage.controllers) == 1
-    stage.go()
+    stage.until(lambda: stage.controller is stage.controllers[0])
     assert "/dev/ttyUSB0" in stage.studio.settings.get("ports_used")
 
 
@@ -127,22 +129,42 @@ def test_the_serial_setup_connects_with_what_was_set_and_remembers_it(stage: Sta
     assert serial.choice.port == "/dev/ttyS0"
     serial.baud.setCurrentIndex(serial.baud.findData(19200))
     press(serial.connect_button)
+    stage.until(lambda: stage.controller.state is State.READY)
     assert stage.controller.kind is Kind.MACHINE
+    assert stage.controller.line.baud == 19200
     assert stage.studio.settings.get("baud") == 19200
     assert stage.studio.connection.address == "/dev/ttyS0"
 
 
 def test_a_lost_machine_stays_a_lost_machine(stage: Stage) -> None:
-    stage.connect("machine").state = State.LOST
-    stage.go(10)
+    rig = stage.connect("machine")
+    rig.cut()
+    stage.until(lambda: rig.controller.state is State.LOST)
+    stage.go(100)
+    assert stage.controller is rig.controller
     assert stage.controller.kind is Kind.MACHINE
     assert "connection lost" in stage.studio.actions["upload"].statusTip()
+
+
+def test_a_machine_that_answers_again_is_there_again_in_watch(stage: Stage) -> None:
+    rig = stage.connect("machine")
+    rig.controller.take_control()
+    rig.cut()
+    stage.until(lambda: rig.controller.state is State.LOST)
+    rig.loopback.unplugged = False
+    stage.until(lambda: rig.controller.state is State.READY)
+    stage.go()
+    assert not rig.controller.control
+    assert stage.studio.window.header.switch.watch.isChecked()
 
 
 def test_another_connection_closes_the_one_before(stage: Stage) -> None:
     first = stage.connect("machine")
     stage.connect("simulator")
     assert first.closed
+    sent = len(first.loopback.written)
+    stage.go(30)
+    assert len(first.loopback.written) == sent
 
 
 @pytest.mark.parametrize(
@@ -189,29 +211,25 @@ def test_offline_the_switch_says_why_it_is_grey(stage: Stage) -> None:
 
 
 def test_the_question_of_a_program_is_answered_in_its_box(stage: Stage) -> None:
-    from device.api import Prompt
-
-    stage.connect("machine").pending_prompt = Prompt("Length?", (12,))
+    rig = stage.question()
     stage.go()
     box = stage.studio.window.prompt
     assert box.isVisible()
     assert "Length?" in box.text.text()
-    assert "12" in box.text.text()
+    assert str(ASKS) in box.text.text()
     QTest.keyClicks(box.line, "10.5")
     QTest.keyClick(box.line, Qt.Key.Key_Return)
-    stage.go()
-    assert ("answer", "10.5") in stage.controller.calls
-    assert not box.isVisible()
+    stage.until(lambda: not rig.running)
+    assert rig.simulation.state()["variables"]["LEN"] == 10.5
+    stage.until(lambda: not box.isVisible())
 
 
 def test_while_a_question_is_pending_nothing_can_be_typed_in_the_terminal(stage: Stage) -> None:
-    from device.api import Prompt
-
-    fake = stage.connect("simulator")
+    stage.connect("simulator")
     stage.studio.desk.bring("Terminal")
     stage.go()
     assert stage.studio.terminal.line.isEnabled()
-    fake.pending_prompt = Prompt("Length?", (12,))
+    stage.question("simulator")
     stage.go()
     assert not stage.studio.terminal.line.isEnabled()
     assert "answer" in stage.studio.terminal.why.text()
@@ -235,23 +253,33 @@ def test_the_arrangement_is_remembered(stage: Stage) -> None:
     assert not stage.studio.window.docks["Terminal"].isVisible()
 
 
+STRANGE = "UNIT 7 V3"  # a version text that names no type
+
+
 def test_a_controller_that_does_not_name_itself_is_asked_about_once(stage: Stage) -> None:
-    fake = stage.connect("machine")
-    fake.model, fake.axes = None, ""
+    stage.connect("machine", "ssc3", revision=STRANGE)
+    assert stage.controller.model is None
     stage.go()
     question = stage.studio.desk.question
     assert question is not None
     assert "SSC3" in question.buttons
     QTest.mouseClick(question.buttons["SSC3"], Qt.MouseButton.LeftButton)
-    stage.go()
-    assert ("model", "ssc3") in fake.calls
+    stage.until(lambda: stage.controller.last().value("position.z") == 0)
     assert set(stage.studio.display.axes) == {"X", "Y", "Z"}
-    assert known_models(stage.studio.settings) == {1234: "ssc3"}
+    serial = stage.rig.simulation.unit.profile.serial_number
+    assert known_models(stage.studio.settings) == {serial: "ssc3"}
+
+
+def test_a_type_told_once_is_known_the_next_time(stage: Stage) -> None:
+    serial = Rig().simulation.unit.profile.serial_number
+    stage.connect("machine", "ssc3", revision=STRANGE, known_models={serial: "ssc3"})
+    stage.go()
+    assert stage.studio.desk.question is None
+    assert stage.controller.axes == "XYZ"
 
 
 def test_whoever_does_not_know_the_type_is_left_in_peace(stage: Stage) -> None:
-    fake = stage.connect("machine")
-    fake.model = None
+    stage.connect("machine", revision=STRANGE)
     stage.go()
     assert stage.studio.desk.question is not None
     stage.studio.desk.question = None

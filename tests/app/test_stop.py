@@ -11,8 +11,9 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QDialog, QFileDialog, QLineEdit, QMessageBox, QWidget
 
-from device.api import Kind, Prompt, StopState
-from tests.stage import Stage
+from device.api import Kind, State, StopState
+from tests.rig import Rig
+from tests.stage import ASKS, Stage
 
 
 def press_f12(widget: QWidget | None = None) -> None:
@@ -23,8 +24,19 @@ def press_f12(widget: QWidget | None = None) -> None:
     QTest.keyClick(target, Qt.Key.Key_F12)
 
 
-def stops(stage: Stage) -> int:
-    return stage.controller.calls.count("stop")
+def machine(stage: Stage) -> Rig:
+    """A machine in Watch whose X axis jogs."""
+    rig = stage.connect("machine", scene="jogging")
+    assert rig.moving == ["X"]
+    assert rig.stops == []
+    return rig
+
+
+def stopped_once(stage: Stage) -> bool:
+    """One stop has left, and it was enough: no axis is commanded, no program runs."""
+    rig = stage.rig
+    stage.until(lambda: rig.controller.stop_state is StopState.STOPPED)
+    return rig.stops == ["ST"] and rig.moving == [] and rig.running == []
 
 
 def _welcome(stage: Stage) -> QWidget:
@@ -75,7 +87,8 @@ def _terminal(stage: Stage) -> QWidget:
 
 
 def _prompt(stage: Stage) -> QWidget:
-    stage.controller.pending_prompt = Prompt("Length?", (3,))
+    rig = stage.question()
+    assert rig.running == [ASKS]
     stage.go()
     return stage.studio.window.prompt.line
 
@@ -104,45 +117,46 @@ PLACES: dict[str, Callable[[Stage], QWidget]] = {
 
 @pytest.mark.parametrize("place", PLACES)
 def test_f12_stops_from(place: str, stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     widget = PLACES[place](stage)
+    assert stage.rig.moving or stage.rig.running
     QApplication.processEvents()
     press_f12(widget)
-    assert stops(stage) == 1
+    assert stopped_once(stage)
 
 
 def test_f12_stops_inside_a_modal_dialog(stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     box = QMessageBox(stage.studio.window)
     box.setText("modal")
-    seen: list[int] = []
+    seen: list[bool] = []
 
     def press() -> None:
         press_f12(box)
-        seen.append(stops(stage))
+        seen.append(stopped_once(stage))
         box.accept()
 
     QTimer.singleShot(0, press)
     box.exec()
-    assert seen == [1]
+    assert seen == [True]
 
 
 def test_f12_stops_while_a_menu_is_open(stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     menu = stage.studio.window.header.menus.actions()[0].menu()
     menu.popup(QPoint(10, 10))  # type: ignore[union-attr]
     press_f12(menu)  # type: ignore[arg-type]
-    assert stops(stage) == 1
+    assert stopped_once(stage)
     menu.close()  # type: ignore[union-attr]
 
 
 def test_f12_stops_while_a_choice_is_open(stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     serial = _serial(stage)
     box = serial.findChildren(QComboBox)[0]
     box.showPopup()
     press_f12(box.view())
-    assert stops(stage) == 1
+    assert stopped_once(stage)
     box.hidePopup()
 
 
@@ -154,68 +168,73 @@ class Greedy(QObject):
 
 
 def test_f12_stops_during_a_drag(stage: Stage, qapp: QApplication) -> None:
-    stage.connect("machine")
+    machine(stage)
     greedy = Greedy()
     qapp.installEventFilter(greedy)
     try:
         stage.go(1)  # the tick goes on during a drag
         press_f12(stage.studio.program.tree)
-        assert stops(stage) == 1
+        assert stopped_once(stage)
     finally:
         qapp.removeEventFilter(greedy)
 
 
 def test_f12_stops_while_a_name_is_edited_in_place(stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     line = next(each for each in stage.studio.program.findChildren(QLineEdit) if each.isVisible() and each.isEnabled())
     line.setFocus()
     QTest.keyClicks(line, "AB")
     press_f12(line)
-    assert stops(stage) == 1
+    assert stopped_once(stage)
 
 
 def test_holding_f12_down_is_one_stop(stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     window = stage.studio.window
     for repeated in (False, True, True):
         event = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_F12, Qt.KeyboardModifier.NoModifier, "", repeated)
         QApplication.sendEvent(window, event)
-    assert stops(stage) == 1
+    assert stopped_once(stage)
 
 
 @pytest.mark.parametrize("modifier", [Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.ControlModifier])
 def test_f12_stops_with_a_modifier_held(stage: Stage, modifier: Qt.KeyboardModifier) -> None:
-    stage.connect("machine")
+    machine(stage)
     QTest.keyClick(stage.studio.window, Qt.Key.Key_F12, modifier)
-    assert stops(stage) == 1
+    assert stopped_once(stage)
 
 
 def test_a_second_press_is_a_second_stop(stage: Stage) -> None:
-    stage.connect("machine")
+    machine(stage)
     press_f12(stage.studio.window)
+    stage.until(lambda: stage.rig.stops == ["ST"])
+    assert stage.controller.stop_state is StopState.STOPPING
     press_f12(stage.studio.window)
-    assert stops(stage) == 2
+    stage.until(lambda: stage.controller.stop_state is StopState.STOPPED)
+    assert stage.rig.stops == ["ST", "AB"]
+    assert stage.rig.moving == []
 
 
 @pytest.mark.parametrize("layout", ["Program", "Run"])
 def test_the_button_is_visible_in_every_layout_and_acts_when_pressed(stage: Stage, layout: str) -> None:
-    stage.connect("machine")
+    machine(stage)
     stage.studio.desk.arrange(layout)
     stage.go()
     button = stage.studio.window.header.stop
     assert button.isVisible()
     assert button.visibleRegion().boundingRect() == button.rect()
     QTest.mousePress(button, Qt.MouseButton.LeftButton)
-    assert stops(stage) == 1
+    assert stopped_once(stage)
     QTest.mouseRelease(button, Qt.MouseButton.LeftButton)
-    assert stops(stage) == 1
+    stage.go(10)
+    assert stopped_once(stage)
 
 
 @pytest.mark.parametrize("key", [Qt.Key.Key_Space, Qt.Key.Key_Return])
 def test_the_button_works_by_keyboard(stage: Stage, key: Qt.Key) -> None:
-    stage.connect("machine")
+    machine(stage)
     QTest.keyClick(stage.studio.window.header.stop, key)
-    assert stops(stage) == 1
+    assert stopped_once(stage)
 
 
 def test_the_button_keeps_its_place_when_the_window_is_narrow(stage: Stage) -> None:
@@ -226,16 +245,15 @@ def test_the_button_keeps_its_place_when_the_window_is_narrow(stage: Stage) -> N
 
 
 def test_a_floating_panel_that_moves_something_has_its_own_stop(stage: Stage) -> None:
-    stage.connect("machine")
     for title in ("Display", "Terminal", "Simulator"):
+        machine(stage)
         dock = stage.studio.window.docks[title]
         dock.setFloating(True)
         stage.go()
         assert dock.stop_button is not None
         assert dock.stop_button.isVisible()
-        before = stops(stage)
         QTest.mousePress(dock.stop_button, Qt.MouseButton.LeftButton)
-        assert stops(stage) == before + 1
+        assert stopped_once(stage)
 
 
 WORDS: dict[StopState, tuple[str, str]] = {
@@ -247,18 +265,58 @@ WORDS: dict[StopState, tuple[str, str]] = {
 }
 
 
+def _ready(stage: Stage) -> None:
+    machine(stage)
+
+
+def _stopping(stage: Stage) -> None:
+    machine(stage)
+    press_f12(stage.studio.window)
+    stage.go(1)
+
+
+def _stopped(stage: Stage) -> None:
+    machine(stage)
+    press_f12(stage.studio.window)
+    assert stopped_once(stage)
+
+
+def _not_confirmed(stage: Stage) -> None:
+    machine(stage).cut()
+    press_f12(stage.studio.window)
+    stage.later(0.6)  # 0.5 s without an answer
+
+
+def _no_link(stage: Stage) -> None:
+    rig = stage.connect("machine", answers=False, openable=False)
+    stage.until(lambda: rig.controller.state is State.LOST)
+
+
+SITUATIONS: dict[StopState, Callable[[Stage], None]] = {
+    StopState.READY: _ready,
+    StopState.STOPPING: _stopping,
+    StopState.STOPPED: _stopped,
+    StopState.NOT_CONFIRMED: _not_confirmed,
+    StopState.NO_LINK: _no_link,
+}
+
+
 @pytest.mark.parametrize("state", list(StopState))
 def test_the_button_says_what_has_become_of_the_stop(stage: Stage, state: StopState) -> None:
-    stage.connect("machine").stop_state = state
-    stage.go()
+    SITUATIONS[state](stage)
+    stage.studio.tick.once()
     button = stage.studio.window.header.stop
+    assert stage.controller.stop_state is state
     assert button.words == WORDS[state]
     assert button.accessibleDescription() == " - ".join(WORDS[state])
 
 
 @pytest.mark.parametrize("kind", list(Kind))
 def test_window_button_status_bar_and_panels_say_what_is_connected(stage: Stage, kind: Kind) -> None:
-    stage.connect(kind.value)
+    if kind is Kind.OFFLINE:
+        stage.studio.connection.go_offline()
+    else:
+        stage.connect(kind.value)
     stage.go()
     word, window = kind.value.upper(), stage.studio.window
     assert word in window.windowTitle()

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from concurrent.futures import Future
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtCore import QTimer
@@ -12,8 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from app.crash import CrashHook
 from app.tick import OWNER, Tick, failure_of
-from device.api import Kind, Notice, NoticeKind, Row
-from tests.fakes import FakeController, done, failed, live_row
+from device.api import Notice, Row
+from tests.rig import Rig
 from tests.stage import Stage
 from widgets.panel import Panel
 
@@ -37,14 +39,26 @@ class Spy(Panel):
         self.heard.append(notice.text)
 
 
+def done(value: Any) -> Future[Any]:
+    """A future that is finished already."""
+    future: Future[Any] = Future()
+    future.set_result(value)
+    return future
+
+
 @pytest.fixture
-def tick(qtbot: QtBot) -> Tick:
+def rig() -> Rig:
+    return Rig().ready()
+
+
+@pytest.fixture
+def tick(qtbot: QtBot, rig: Rig) -> Tick:
     tick = Tick()
-    tick.attach(FakeController(Kind.SIMULATOR))  # type: ignore[arg-type]
+    tick.attach(rig.controller)
     return tick
 
 
-def test_only_visible_panels_are_refreshed_and_polled_for(qtbot: QtBot, tick: Tick) -> None:
+def test_only_visible_panels_are_refreshed_and_polled_for(qtbot: QtBot, tick: Tick, rig: Rig) -> None:
     shown, hidden = Spy(("position.x",)), Spy(("inputs",))
     for panel in (shown, hidden):
         qtbot.addWidget(panel)
@@ -52,22 +66,35 @@ def test_only_visible_panels_are_refreshed_and_polled_for(qtbot: QtBot, tick: Ti
     shown.resize(100, 100)
     shown.show()
     tick.once()
-    controller = tick._controller
     assert (shown.rows, hidden.rows) == (1, 0)
-    assert controller.calls == [("watch", OWNER, ("position.x",))]  # type: ignore[union-attr]
+    rig.until(lambda: rig.controller.last().value("position.x") == 0)
+    rig.run(2.0)
+    assert math.isnan(rig.controller.last().value("inputs"))
     shown.hide()
     tick.once()
-    assert controller.calls[-1] == ("watch", OWNER, ())  # type: ignore[union-attr]
+    rig.run(0.5)
+    assert math.isnan(rig.controller.last().value("position.x"))
 
 
-def test_notices_reach_hidden_panels_too(qtbot: QtBot, tick: Tick) -> None:
+def test_a_tick_asks_anew_only_when_something_else_is_shown(tick: Tick, rig: Rig) -> None:
+    rig.controller.watch(OWNER, ("inputs",))  # as if somebody else had said so: a tick without a change leaves it
+    tick.once()
+    tick.once()
+    assert rig.controller.poller.wanted() == ("inputs",)
+
+
+def test_notices_reach_hidden_panels_too(qtbot: QtBot, tick: Tick, rig: Rig) -> None:
     panel = Spy(())
     qtbot.addWidget(panel)
     tick.add(panel)
-    tick._controller.say(NoticeKind.FAULT, "limit")  # type: ignore[union-attr]
+    rig.run(0.5)
+    tick.once()
+    panel.heard.clear()
+    rig.start('MG "LIMIT"\nEN')
+    rig.run(0.5)
     tick.once()
     tick.once()
-    assert panel.heard == ["limit"]
+    assert panel.heard == ["LIMIT"]
 
 
 def test_a_future_calls_back_once_it_is_done(tick: Tick) -> None:
@@ -97,7 +124,9 @@ def test_a_callback_may_ask_for_the_next_one(tick: Tick) -> None:
 
 def test_failures_are_sentences() -> None:
     assert failure_of(done(1)) == ""
-    assert failure_of(failed(OSError("cable out"))) == "cable out"
+    failed: Future[int] = Future()
+    failed.set_exception(OSError("cable out"))
+    assert failure_of(failed) == "cable out"
 
 
 def test_it_is_the_only_timer_of_the_shell(stage: Stage) -> None:
@@ -106,9 +135,10 @@ def test_it_is_the_only_timer_of_the_shell(stage: Stage) -> None:
 
 
 def test_refreshing_twice_with_the_same_row_changes_nothing(stage: Stage) -> None:
-    stage.connect("machine").row = live_row()
-    stage.go()
+    rig = stage.connect("simulator")
+    rig.type("DP 6370")
     readout = stage.studio.display.axes["X"]
+    stage.until(lambda: readout.position.text() == "10.000")  # 6370 counts at 637 an inch
     before = readout.position.text()
     changed: list[str] = []
     readout.position.setText = changed.append  # type: ignore[method-assign]

@@ -87,8 +87,7 @@ class TerminalPanel(Panel):
             for text in reply.text.splitlines() or ["accepted"]:
                 self.write("reply" if reply.text else "note", text)
         else:
-            reason = f"{command}: {reply.reason or 'refused'}" + (f" (error {reply.code})" if reply.code else "")
-            self.write("refused", reason)
+            self.write("refused", reply.reason or f"{command}: refused")
         if not reply.certain:
             self.write("note", "(the reply is uncertain: the program was talking at the same moment)")
 

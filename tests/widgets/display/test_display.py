@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
+import re
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -13,20 +15,29 @@ from pytestqt.qtbot import QtBot
 from app.theme import Choice, Theme
 from codegen.document import Document
 from codegen.setup import Axis, Setup, Unit
-from device.api import Kind
-from tests.fakes import FakeController, live_row, row_of
+from device.api import Controller, Kind, Row, State
+from tests.rig import Rig
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
 from widgets.display.readings import age_of, axis_shown, bit, fault_of, switches_of
 from widgets.display.threads import thread_words
 from widgets.parts.units import decimals_of, shown
 
+X = ("position.x", "commanded.x", "error.x", "velocity.x", "switches.x", "stop_code.x")
+Y = ("position.y", "commanded.y", "error.y", "velocity.y", "switches.y", "stop_code.y")
+PLAIN = ("inputs", "outputs", "thread0")
 INCH = Axis(unit=Unit.INCH, counts_per_unit="637", reverse_limit="0", forward_limit="20")
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _theme(qapp: object) -> object:
     return Theme(qapp, Choice.LIGHT)  # type: ignore[arg-type]
+
+
+def row_of(values: dict[str, float], at: float = 0.0, period_s: float = 0.1) -> Row:
+    """A row with these values, all read at `at`."""
+    places = {name: place for place, name in enumerate(values)}
+    return Row(places, np.array([float(value) for value in values.values()]), np.full(len(values), at), period_s)
 
 
 @pytest.mark.parametrize(
@@ -81,7 +92,11 @@ def test_faults_in_words(byte: int, code: int, words: str) -> None:
 
 
 def test_one_axis_in_units_with_speed_and_travel() -> None:
-    values = axis_shown(live_row(), "X", INCH, 0.0)
+    row = row_of({
+        "position.x": 6370, "commanded.x": 6371, "error.x": 1, "velocity.x": 3185, "switches.x": 128 + 8 + 4 + 1,
+        "stop_code.x": 0,
+    })  # fmt: skip
+    values = axis_shown(row, "X", INCH, 0.0)
     assert values.position == "10.000"
     assert values.commanded == "10.002"  # 6371 / 637
     assert values.speed == "5.00 in/s"  # 3185 / 637
@@ -106,30 +121,49 @@ def test_threads_in_words() -> None:
     assert thread_words(0, 99, source) == "▲  Thread 0: line 99"
 
 
+class Bench:
+    """The panel on a simulated machine."""
+
+    def __init__(self, rig: Rig) -> None:
+        self.rig = rig.ready()
+        self.panel = DisplayPanel(clock=rig.clock)
+        setup = dc.replace(Setup(model="ssc2"), input_names=("Start", *("",) * 7)).with_axis("X", INCH)
+        self.panel.show_document(None, Document(setup=setup))
+        self.panel.attach(rig.controller)
+        self.panel.resize(380, 700)
+        self.panel.show()
+        rig.controller.watch("panel", self.panel.watches())
+
+    def refresh(self) -> None:
+        self.panel.refresh(self.rig.controller.last())
+
+    def until(self, words: str) -> str:
+        """Refreshes until it says so; everything it says then."""
+
+        def said() -> bool:
+            self.refresh()
+            return words in self.panel.words()
+
+        self.rig.until(said)
+        return self.panel.words()
+
+
 @pytest.fixture
-def panel(qtbot: QtBot) -> DisplayPanel:
-    clock = [0.0]
-    panel = DisplayPanel(clock=lambda: clock[0])
-    panel.hand = clock  # type: ignore[attr-defined]
-    qtbot.addWidget(panel)
-    setup = dc.replace(Setup(model="ssc2"), input_names=("Start", *("",) * 7)).with_axis("X", INCH)
-    panel.show_document(None, Document(setup=setup))
-    panel.attach(FakeController(Kind.SIMULATOR))  # type: ignore[arg-type]
-    panel.resize(380, 700)
-    panel.show()
-    return panel
+def bench(qtbot: QtBot) -> Bench:
+    bench = Bench(Rig())
+    qtbot.addWidget(bench.panel)
+    return bench
 
 
-def fake(panel: DisplayPanel) -> FakeController:
-    controller = panel.controller
-    assert isinstance(controller, FakeController)
-    return controller
+@pytest.fixture
+def panel(bench: Bench) -> DisplayPanel:
+    return bench.panel
 
 
 def test_offline_it_says_how_to_fill_it(qtbot: QtBot) -> None:
     panel = DisplayPanel()
     qtbot.addWidget(panel)
-    panel.attach(FakeController())  # type: ignore[arg-type]
+    panel.attach(Controller.offline())
     assert "Connect a controller" in panel.words()
 
 
@@ -138,74 +172,123 @@ def test_it_watches_what_it_shows(panel: DisplayPanel) -> None:
     assert "position.z" not in panel.watches()
 
 
-def test_everything_is_said_in_words(panel: DisplayPanel) -> None:
-    panel.refresh(live_row())
-    words = panel.words()
-    assert "X axis: 10.000 in, ▲ 5.00 in/s" in words
-    assert "! at forward limit" in words
-    assert "input 1 Start, off" in words
-    assert "output 3, on" in words
-    assert "Thread 0: line 4" in words
+def test_everything_is_said_in_words(bench: Bench) -> None:
+    rig = bench.rig
+    rig.type("DP 6370,-1250", "SB 1", "SB 3")
+    rig.simulation.stimulus("in1", 0)
+    rig.simulation.stimulus("fls_y", 0)
+    rig.start("#A\nN=1\nN=2\nN=3\nAI 1\nEN")
+    rig.values((*X, *Y, *PLAIN))
+    bench.refresh()
+    lines = bench.panel.words().splitlines()
+    # 6370 counts at 637 an inch; Y counts as it has no scale
+    assert "X axis: 10.000 in, ■ stopped, commanded 10.000" in lines
+    assert any(line.startswith("Y axis: -1250 ") and "! at forward limit" in line for line in lines)
+    assert "input 1 Start, off" in lines
+    assert [line.split(", ")[1] for line in lines if line.startswith("input ")] == ["off", *["on"] * 7]
+    on = ["on", "off", "on", *["off"] * 5]
+    assert [line.split(", ")[1] for line in lines if line.startswith("output ")] == on
+    assert any("Thread 0: line 4" in line for line in lines)
 
 
-def test_stale_values_are_greyed_with_their_age(panel: DisplayPanel) -> None:
-    panel.hand[0] = 12.0  # type: ignore[attr-defined]
-    panel.refresh(live_row(0.0))
+def test_a_moving_axis_says_so_with_its_speed(bench: Bench) -> None:
+    bench.rig.type("JG 3184", "BGX")
+    bench.rig.run(1.0)
+    words = bench.until("▲")
+    found = re.search(r"X axis: ([-\d.]+) in, ▲ ([-\d.]+) in/s", words)
+    assert found is not None
+    assert float(found[2]) == pytest.approx(3184 / 637, abs=0.02)
+    # where it was when it was read, from where it is now
+    row, clock = bench.rig.controller.last(), bench.rig.clock()
+    actual = bench.rig.simulation.state()["axes"]["X"]["actual"]
+    read_at = actual - 3184 * (clock - row.time("position.x"))
+    assert float(found[1]) == pytest.approx(read_at / 637, abs=3184 / 637 * 0.05)  # an answer takes up to 50 ms
+
+
+def test_where_the_axis_stands_between_its_limits(bench: Bench) -> None:
+    bench.rig.type("DP 6370")
+    bench.rig.values(X)
+    shown_now = axis_shown(bench.rig.controller.last(), "X", INCH, bench.rig.clock())
+    assert shown_now.fraction == pytest.approx(0.5)  # 10 of 0..20 in
+
+
+def test_stale_values_are_greyed_with_their_age(bench: Bench) -> None:
+    panel, rig = bench.panel, bench.rig
+    rig.type("DP 6370")
+    rig.values((*X, "inputs"))
+    bench.until("10.000 in")
+    assert panel.axes["X"].age.text() == ""
+    assert "stale" not in panel.inputs.lamps[0].words
+    rig.cut()
+    rig.run(1.0)
+    rig.run_to(rig.controller.last().time("position.x") + 12.0)
+    bench.refresh()
     assert panel.axes["X"].age.text() == "12 s old"
+    assert panel.axes["X"].position.text() == "10.000"
     assert "stale" in panel.inputs.lamps[0].words
-    panel.hand[0] = 0.1  # type: ignore[attr-defined]
-    panel.refresh(live_row(0.0))
+    rig.loopback.unplugged = False
+    rig.until(lambda: rig.controller.state is State.READY)
+    rig.values((*X, "inputs"))
+    bench.refresh()
     assert panel.axes["X"].age.text() == ""
 
 
-def test_suspended_reading_says_why(panel: DisplayPanel) -> None:
-    fake(panel).polling, fake(panel).polling_text = False, "waiting for an answer"
-    panel.refresh(live_row())
-    assert panel.rate.text() == "waiting for an answer"
+def test_suspended_reading_says_why(bench: Bench) -> None:
+    panel, rig = bench.panel, bench.rig
+    bench.until("reads/s")
+    assert not panel.read_now.isVisible()
+    rig.simulation.load_program('#A\nIN "Length?",LEN\nEN')
+    rig.result(rig.controller.execute(anyway=True))
+    rig.until(lambda: rig.controller.pending_prompt is not None)
+    bench.refresh()
+    assert panel.rate.text() == "The program waits for an answer “Length?”."
     asked: list[bool] = []
     panel.read_wanted.connect(lambda: asked.append(True))
     assert panel.read_now.isVisible()
     panel.read_now.click()
     assert asked == [True]
-    fake(panel).polling = True
-    panel.refresh(live_row())
+    rig.result(rig.controller.answer("5"))
+    bench.until("reads/s")
     assert not panel.read_now.isVisible()
 
 
-def test_outputs_switch_only_with_io_control(panel: DisplayPanel, qtbot: QtBot) -> None:
+def test_outputs_switch_only_with_io_control(bench: Bench) -> None:
+    panel, rig = bench.panel, bench.rig
     wanted: list[tuple[int, bool]] = []
     panel.output_wanted.connect(lambda number, on: wanted.append((number, on)))
-    panel.refresh(live_row())
+    rig.type("SB 1")
+    bench.until("output 1, on")
     lamp = panel.outputs.lamps[1]
     QTest.mouseClick(lamp, Qt.MouseButton.LeftButton)
     assert wanted == []
     assert "I/O control" in lamp.toolTip()
-    fake(panel).io_control = True
-    panel.refresh(live_row())
+    rig.controller.set_io_control(True)
+    bench.refresh()
     QTest.mouseClick(lamp, Qt.MouseButton.LeftButton)
     QTest.keyClick(panel.outputs.lamps[0], Qt.Key.Key_Space)
     assert wanted == [(2, True), (1, False)]
 
 
-def test_in_watch_io_control_is_grey_and_says_why(panel: DisplayPanel) -> None:
-    fake(panel).control = False
-    panel.refresh(live_row())
-    assert not panel.io_control.isEnabled()
-    assert "Control" in panel.io_control.toolTip()
+def test_in_watch_io_control_is_grey_and_says_why(bench: Bench) -> None:
+    bench.rig.controller.release_control()
+    bench.refresh()
+    assert not bench.panel.io_control.isEnabled()
+    assert "Control" in bench.panel.io_control.toolTip()
 
 
-def test_inputs_never_switch(panel: DisplayPanel) -> None:
-    fake(panel).io_control = True
-    panel.refresh(live_row())
-    assert all(lamp.focusPolicy() == Qt.FocusPolicy.NoFocus for lamp in panel.inputs.lamps)
+def test_inputs_never_switch(bench: Bench) -> None:
+    bench.rig.controller.set_io_control(True)
+    bench.refresh()
+    assert all(lamp.focusPolicy() == Qt.FocusPolicy.NoFocus for lamp in bench.panel.inputs.lamps)
 
 
-def test_another_model_brings_its_own_axes_and_lamps(panel: DisplayPanel) -> None:
-    panel.attach(FakeController(Kind.MACHINE, "dmc1412"))  # type: ignore[arg-type]
-    panel.refresh(row_of({"position.x": 1.0}))
-    assert set(panel.axes) == {"X"}
+def test_another_model_brings_its_own_axes_and_lamps(bench: Bench) -> None:
+    other = Rig(Kind.MACHINE, "dmc1412").ready()
+    bench.panel.attach(other.controller)
+    bench.panel.refresh(other.values(("position.x",)).controller.last())
+    assert set(bench.panel.axes) == {"X"}
     # dmc-1412: 7 inputs, 3 outputs (models.json)
-    assert (len(panel.inputs.lamps), len(panel.outputs.lamps)) == (7, 3)
+    assert (len(bench.panel.inputs.lamps), len(bench.panel.outputs.lamps)) == (7, 3)
 
 
 def test_messages_keep_their_order_and_count_repeats(qtbot: QtBot) -> None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.theme import Choice, Theme
-from device.api import Kind, Notice, NoticeKind, Prompt, Reply
-from tests.fakes import FakeController, row_of
+from device.api import Controller, Kind, Prompt, Reply
+from tests.rig import Rig
 from widgets.terminal.code_window import CodeWindow
 from widgets.terminal.prompt import PromptBox
 from widgets.terminal.terminal import TerminalPanel
@@ -21,13 +23,32 @@ def _theme(qapp: object) -> object:
 
 
 @pytest.fixture
-def terminal(qtbot: QtBot) -> TerminalPanel:
+def rig() -> Rig:
+    return Rig().ready()
+
+
+@pytest.fixture
+def terminal(qtbot: QtBot, rig: Rig) -> TerminalPanel:
     terminal = TerminalPanel()
     qtbot.addWidget(terminal)
-    terminal.attach(FakeController(Kind.SIMULATOR))  # type: ignore[arg-type]
+    terminal.attach(rig.controller)
     terminal.show()
-    terminal.refresh(row_of({}))
+    terminal.refresh(rig.controller.last())
     return terminal
+
+
+def ask(terminal: TerminalPanel, rig: Rig, command: str) -> Reply:
+    """What the machine answers, shown."""
+    reply = rig.result(rig.controller.ask(command))
+    terminal.show_reply(command, reply)
+    return reply
+
+
+def hear(terminal: TerminalPanel, rig: Rig) -> None:
+    """Everything that has happened."""
+    rig.run(0.5)
+    for notice in rig.controller.notices():
+        terminal.notice(notice)
 
 
 def enter(terminal: TerminalPanel, text: str) -> None:
@@ -51,13 +72,14 @@ def test_an_empty_line_sends_nothing(terminal: TerminalPanel) -> None:
     assert sent == []
 
 
-def test_replies_and_the_reason_behind_a_question_mark(terminal: TerminalPanel) -> None:
-    terminal.show_reply("TPX", Reply("6370", True))
-    terminal.show_reply("PR 1,,,9", Reply("", False, True, 4, "refused, error 4, Operand error."))
-    text = terminal.log.toPlainText()
-    assert "6370" in text
-    assert "? PR 1,,,9" in text
-    assert "Operand error" in text
+def test_replies_and_the_reason_behind_a_question_mark(terminal: TerminalPanel, rig: Rig) -> None:
+    ask(terminal, rig, "DP 6370")
+    ask(terminal, rig, "TPX")
+    reply = ask(terminal, rig, "KP 5000")  # KP goes to 1023.875 (dmc-1412-1414.txt, KP)
+    lines = terminal.log.toPlainText().splitlines()
+    assert reply.code == 6  # number out of range
+    assert "   0000006370" in lines  # ten digits, LZ 0
+    assert lines[-1] == "? KP 5000: refused, error 6, Number out of range."
 
 
 def test_an_uncertain_reply_says_so(terminal: TerminalPanel) -> None:
@@ -65,12 +87,29 @@ def test_an_uncertain_reply_says_so(terminal: TerminalPanel) -> None:
     assert "uncertain" in terminal.log.toPlainText()
 
 
-def test_what_the_program_says_has_another_colour(terminal: TerminalPanel) -> None:
-    terminal.show_reply("TPX", Reply("6370", True))
-    terminal.notice(Notice(NoticeKind.MESSAGE, "LENGTH 10", 0.0))
+def test_what_the_program_says_has_another_colour(terminal: TerminalPanel, rig: Rig) -> None:
+    ask(terminal, rig, "MG 6370")
+    rig.start('MG "LENGTH 10"\nEN')
+    hear(terminal, rig)
     blocks = [terminal.log.document().findBlockByNumber(n) for n in range(terminal.log.blockCount())]
     colours = {block.text(): block.begin().fragment().charFormat().foreground().color().name() for block in blocks}
-    assert colours["« LENGTH 10"] != colours["  6370"]
+    assert colours["« LENGTH 10"] != colours["   0000006370.0000"]
+
+
+def test_where_a_program_stopped_is_shown_as_a_refusal(terminal: TerminalPanel, rig: Rig) -> None:
+    rig.start("PR 1000;BGX\nPR 5000;BGX\nEN")  # the second begin comes while X moves
+    hear(terminal, rig)
+    assert any(line.startswith("? ") and "001 PR 5000;BGX" in line for line in terminal.log.toPlainText().splitlines())
+
+
+def test_live_reads_are_shown_when_asked_for(terminal: TerminalPanel, rig: Rig) -> None:
+    rig.values(("position.x",))
+    terminal.refresh(rig.controller.last())
+    assert "_TPX" not in terminal.log.toPlainText()
+    terminal.traffic.click()
+    terminal.refresh(rig.controller.last())
+    assert "· > MG" in terminal.log.toPlainText()
+    assert "_TPX" in terminal.log.toPlainText()
 
 
 def test_earlier_lines_come_back_with_the_arrows(terminal: TerminalPanel) -> None:
@@ -84,14 +123,30 @@ def test_earlier_lines_come_back_with_the_arrows(terminal: TerminalPanel) -> Non
     assert terminal.line.text() == ""
 
 
+def offline() -> Controller:
+    return Controller.offline()
+
+
+def watched() -> Controller:
+    return Rig(Kind.MACHINE).ready().controller
+
+
+def asking() -> Controller:
+    rig = Rig(program='IN "Pieces?",N\nEN').ready()
+    rig.result(rig.controller.execute(anyway=True))
+    rig.until(lambda: rig.controller.pending_prompt is not None)
+    return rig.controller
+
+
 @pytest.mark.parametrize(
-    ("kind", "control", "words"), [("offline", False, "Connect"), ("machine", False, "switch to Control")]
+    ("situation", "words"), [(offline, "Connect"), (watched, "switch to Control"), (asking, "Use the answer box")]
 )
-def test_when_nothing_can_be_typed_it_says_why(terminal: TerminalPanel, kind: str, control: bool, words: str) -> None:
-    fake = FakeController(Kind(kind))
-    fake.control = control
-    terminal.attach(fake)  # type: ignore[arg-type]
-    terminal.refresh(row_of({}))
+def test_when_nothing_can_be_typed_it_says_why(
+    terminal: TerminalPanel, situation: Callable[[], Controller], words: str
+) -> None:
+    controller = situation()
+    terminal.attach(controller)
+    terminal.refresh(controller.last())
     assert not terminal.line.isEnabled()
     assert words in terminal.why.text()
 
