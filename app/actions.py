@@ -81,11 +81,6 @@ ROWS: tuple[Row, ...] = (
     Row("terminal", "Terminal", "Machine", "Type commands, see replies", "Alt+2", "terminal", "main", "Terminal"),
     Row("display", "Display", "Machine", "Positions, inputs, outputs and switches", "Alt+3", "display", "main",
         "Display"),
-    Row("jog", "Jog", "Machine", "Move axes by hand", "Alt+4", "jog", "main", "Jog", (need.later,)),
-    Row("teach", "Joystick Teach", "Machine", "Record moves by hand", "Alt+5", "teach", "main", "Teach", (need.later,)),
-    Row("scope", "Scope", "Machine", "Record positions and errors over time", "Alt+6", "scope", "main", "Scope",
-        (need.later,)),
-    Row("tune", "Tune", "Machine", "Set the gains of the servo loop", "Alt+7", "tune", "main", "Tune", (need.later,)),
     Row("simulator_panel", "Simulator switches", "Machine", "Flip the simulated machine's switches", "", "simulator"),
     Row("connect", "Connect…", "Controller", "Looks for a controller and offers what else can be done", "Ctrl+K",
         "connect"),
@@ -115,7 +110,7 @@ MENUS = ("File", "Edit", "View", "Machine", "Controller", "Help")
 # what stands together in the toolbar, in the order of the manual's main panel
 MAIN = (
     ("open", "save"),
-    ("setup", "program", "terminal", "display", "jog", "teach", "scope", "tune"),
+    ("setup", "program", "terminal", "display"),
     ("help", "exit"),
 )
 RUN = (("download", "execute", "halt"), ("burn", "upload"))

@@ -103,7 +103,6 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": desk.show_setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
-            "jog": _nothing, "teach": _nothing, "scope": _nothing, "tune": _nothing,
             "connect": start.look, "serial": start.show_serial, "simulator": start.use_simulator,
             "disconnect": self.connection.go_offline, "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
@@ -195,7 +194,3 @@ class Studio(QObject):
 
     def _exit(self) -> None:
         self.window.close()
-
-
-def _nothing() -> None:
-    """For rows that are grey in this build."""

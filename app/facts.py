@@ -64,8 +64,3 @@ def something(facts: Facts) -> str:
 def is_online(facts: Facts) -> str:
     """Some connection, also a lost one, that can be closed."""
     return "Nothing is connected." if facts.kind is Kind.OFFLINE else ""
-
-
-def later(facts: Facts) -> str:
-    """A window that this build has not got."""
-    return "This window is not part of this version yet."
