@@ -32,6 +32,7 @@ COMPILING_S: Final = 10.0  # about what compiling it costs
 ASK_AGAIN_S: Final = 1.0  # how often a long run looks whether the compiling is done
 CHUNK: Final = 500  # samples that a plain loop runs between two looks at the clock
 LOCK: Final = "compiling"
+FIRST_S: Final = 0.25  # the first answers of a served simulator go before the loading
 STALE_S: Final = 180.0  # a compiling that has not ended by then was killed
 SWITCH_S: Final = 0.0005  # how long one thread keeps the interpreter while the compiled loop is loaded
 
@@ -210,6 +211,8 @@ class Loading:
         self._thread.join(seconds)
 
     def _work(self) -> None:
+        if self._ended.wait(FIRST_S):
+            return
         while (found := self._compiler.readiness()) is Readiness.COMPILING:
             if self._ended.wait(ASK_AGAIN_S / 4):
                 return
