@@ -236,3 +236,24 @@ def test_hall_inputs_can_be_read() -> None:
         assert levels >> 4 & 1 == value(bench, "@IN[5]")
         seen.add(levels >> 4)
     assert seen == {1, 2, 3, 4, 5, 6}
+
+
+@pytest.mark.parametrize("command", ["BZ -2", "BS 2,100"])
+def test_any_slicing_and_any_snapshot_give_the_same(command: str) -> None:
+    ends = []
+    for slice_ms in (1, 37, 3700):
+        bench = brushless()
+        bench.ask("BI5")
+        answer = bench.type(command + "\r", 0)
+        for _ in range(3700 // slice_ms):
+            answer += bench.wait(slice_ms)
+        ends.append((answer, bench.simulation.unit.motion.snapshot().tobytes()))
+    bench = brushless()
+    bench.ask("BI5")
+    bench.type(command + "\r", 400)
+    moment = bench.simulation.snapshot()
+    bench.wait(5000)
+    bench.simulation.restore(moment)
+    ends.append((bench.wait(3300), bench.simulation.unit.motion.snapshot().tobytes()))
+    assert len(set(ends)) == 1
+    assert ends[0][0].endswith(":")
