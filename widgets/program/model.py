@@ -25,6 +25,7 @@ NOTHING = Qt.ItemFlag.NoItemFlags
 SECTION_FLAGS = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsDropEnabled
 HOLDER_FLAGS = SECTION_FLAGS | Qt.ItemFlag.ItemIsDragEnabled
 STEP_FLAGS = HOLDER_FLAGS & ~Qt.ItemFlag.ItemIsDropEnabled | Qt.ItemFlag.ItemNeverHasChildren
+FLAGS = (SECTION_FLAGS, HOLDER_FLAGS, STEP_FLAGS)
 
 
 class ProgramModel(QAbstractItemModel):
@@ -45,8 +46,7 @@ class ProgramModel(QAbstractItemModel):
 
     def index(self, row: int, column: int, parent: Index = QModelIndex()) -> QModelIndex:  # noqa: B008
         """The index of a row below `parent`."""
-        node = parent.internalPointer() if parent.isValid() else self.root
-        children = node.children
+        children = (parent.internalPointer() or self.root).children
         return self.createIndex(row, column, children[row]) if 0 <= row < len(children) else QModelIndex()
 
     def parent(self, index: Index) -> QModelIndex:  # type: ignore[override]
@@ -84,10 +84,8 @@ class ProgramModel(QAbstractItemModel):
 
     def flags(self, index: Index) -> Qt.ItemFlag:
         """Steps can be chosen and dragged; sections and everything that holds steps take them."""
-        if not index.isValid():
-            return NOTHING
-        step = index.internalPointer().step
-        return SECTION_FLAGS if step is None else HOLDER_FLAGS if step.instruction.container else STEP_FLAGS
+        node = index.internalPointer()  # None for an invalid index; asked for every row at each change
+        return FLAGS[node.kind] if node is not None else NOTHING
 
     # ---- look-up
 
@@ -221,7 +219,7 @@ def _adopt(node: Node, steps: Sequence[Step]) -> None:
     """Hands the new frozen steps to the rows; only where something below is new."""
     for child, step in zip(node.children, steps, strict=True):
         if child.step is not step:
-            child.step = step
+            child.adopt(step)
             _adopt(child, step.body)
 
 

@@ -17,7 +17,7 @@ HINTS = {
 class Node:
     """A row; `step` is None for a section (then `section` names it) and for the root."""
 
-    __slots__ = ("children", "parent", "row", "section", "step")
+    __slots__ = ("children", "kind", "parent", "row", "section", "step")
 
     def __init__(self, parent: Node | None, step: Step | None = None, section: str = "") -> None:
         self.parent = parent
@@ -25,6 +25,12 @@ class Node:
         self.section = section
         self.children: list[Node] = []
         self.row = 0
+        self.kind = 0 if step is None else 1 if step.instruction.container else 2  # section, holder of steps, step
+
+    def adopt(self, step: Step) -> None:
+        """The same step, changed."""
+        self.step = step
+        self.kind = 1 if step.instruction.container else 2
 
     @property
     def id(self) -> str:

@@ -85,7 +85,7 @@ class ProgramView(QWidget):
         if old is None:
             self.tree.expandAll()
         self.tree.viewport().update()
-        self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
+        self._show_code()
         self.header.show_program(new.program, _label(listing))
         self.problems.show_problems(new, listing)
         if self.dialogs.open:
@@ -94,6 +94,12 @@ class ProgramView(QWidget):
             self.instructions.show_setup(new.working_setup)
         self._show_selection(scroll=False)
         self._show_insertion()
+
+    def _show_code(self) -> None:
+        """While the listing is out of sight it follows nothing."""
+        if self.mode != "program":
+            listing = self.session.listing
+            self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
 
     def show_executing(self, threads: Mapping[int, int | None]) -> None:
         """Marks the line each thread stands on (line of what was downloaded; None: the thread does not run)."""
@@ -146,6 +152,7 @@ class ProgramView(QWidget):
         self.tree.setVisible(mode != "code")
         self.bar.setVisible(mode != "code" and bool(self.bar.text.text()))
         self.code.setVisible(mode != "program")
+        self._show_code()
         self.tree.show_code_column(mode == "program")
         self.header.show_mode(mode)
         (self.code if mode == "code" else self.tree).setFocus()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Mapping
+
 from codegen import read
 from codegen.document import Document
 from codegen.generate import Line, Listing
@@ -16,15 +19,16 @@ class Words:
         self.listing: Listing | None = None
         self.problems: dict[str, list[str]] = {}
         self.errors: set[str] = set()
-        self._lines: dict[str, list[int]] = {}
+        self._lines: Mapping[str, list[int]] = {}
 
     def show(self, document: Document, listing: Listing) -> None:
         """Speaks of `document` from now on."""
         self.document, self.listing = document, listing
-        self.problems, self.errors, self._lines = {}, set(), {}
+        lines: defaultdict[str, list[int]] = defaultdict(list)
         for number, line in enumerate(listing.lines):
-            for step in (part[2] for part in line.spans) if line.spans else (line.step,):
-                self._lines.setdefault(step, []).append(number)
+            for part in line.parts or (line,):
+                lines[part.step].append(number)
+        self.problems, self.errors, self._lines = {}, set(), lines
         for problem in listing.problems:
             self.problems.setdefault(problem.step, []).append(problem.message)
             if problem.severity == "error":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from PySide6.QtGui import QFont, QSyntaxHighlighter, QTextCharFormat, QTextDocument
 
@@ -31,6 +32,18 @@ COLOURS = {
 }
 
 
+@lru_cache(maxsize=4096)
+def parts_of(text: str) -> tuple[tuple[int, int, str], ...]:
+    """What has a colour in a line: first column, length, kind; lines come again and again."""
+    found = []
+    for part in PARTS.finditer(text):
+        kind = part.lastgroup or ""
+        if kind == "command" and part.group().strip() not in COMMANDS:
+            kind = "error"
+        found.append((part.start(), part.end() - part.start(), kind))
+    return tuple(found)
+
+
 class Highlighter(QSyntaxHighlighter):
     """Colours commands, labels, numbers, texts and comments."""
 
@@ -40,11 +53,8 @@ class Highlighter(QSyntaxHighlighter):
 
     def highlightBlock(self, text: str) -> None:
         """Colours one line."""
-        for part in PARTS.finditer(text):
-            kind = part.lastgroup or ""
-            if kind == "command" and part.group().strip() not in COMMANDS:
-                kind = "error"
-            self.setFormat(part.start(), part.end() - part.start(), self._format(kind))
+        for start, count, kind in parts_of(text):
+            self.setFormat(start, count, self._format(kind))
 
     def recolour(self) -> None:
         """Takes the colours of the theme that is on now."""

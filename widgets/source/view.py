@@ -12,6 +12,9 @@ from widgets.parts.look import look
 from widgets.source.highlight import Highlighter
 from widgets.source.margin import Margin
 
+MANY = 24  # lines; fewer are simply replaced
+MOST_TURNED = 12  # lines of steps that were moved together
+
 
 class CodeView(QPlainTextEdit):
     """Lines of code; the user's cursor and the chosen steps light up on both sides."""
@@ -54,7 +57,12 @@ class CodeView(QPlainTextEdit):
         last = _same(self.lines[first:][::-1], new[first:][::-1])
         if first < len(self.lines) or first < len(new):
             self._following = True
-            self._replace(first, len(self.lines) - last, new[first : len(new) - last], len(new))
+            end = len(self.lines) - last
+            shift = _turned(self.lines[first:end], new[first : len(new) - last])
+            if shift:  # some lines went past others: the others stay, with their colours
+                self._turn(first, end, shift)
+            else:
+                self._replace(first, end, new[first : len(new) - last], len(new))
             self._following = False
         self.lines = new
         self.problem_lines = dict(problems)
@@ -135,6 +143,18 @@ class CodeView(QPlainTextEdit):
             cursor.insertText("".join(line + "\n" for line in lines))
         cursor.endEditBlock()
 
+    def _turn(self, first: int, end: int, shift: int) -> None:
+        """The first `shift` of these lines go behind the others."""
+        lines = self.lines
+        if shift <= (end - first) // 2:
+            self._replace(end, end, lines[first : first + shift], len(lines) + shift)
+            self.lines = lines[:end] + lines[first : first + shift] + lines[end:]
+            self._replace(first, first + shift, [], len(lines))
+        else:
+            self._replace(first + shift, end, [], len(lines) - (end - first - shift))
+            self.lines = lines[: first + shift] + lines[end:]
+            self._replace(first, first, lines[first + shift : end], len(lines))
+
     def _cursor_moved(self) -> None:
         if not self._following:
             self.line_chosen.emit(self.textCursor().blockNumber())
@@ -177,6 +197,18 @@ class CodeView(QPlainTextEdit):
             self.margin.scroll(0, dy)
         else:
             self.margin.update(0, rect.y(), self.margin.width(), rect.height())
+
+
+def _turned(old: Sequence[str], new: Sequence[str]) -> int:
+    """How many lines from the start went behind all others; 0 when it is another change."""
+    count = len(old)
+    if count < MANY or len(new) != count:
+        return 0
+    for size in range(1, MOST_TURNED):
+        for shift in (size, count - size):
+            if old[shift] == new[0] and old[:shift] == new[count - shift :] and old[shift:] == new[: count - shift]:
+                return shift
+    return 0
 
 
 def _same(one: Sequence[str], other: Sequence[str]) -> int:

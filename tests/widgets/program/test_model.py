@@ -7,9 +7,11 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPersistentModelIndex
 from PySide6.QtTest import QAbstractItemModelTester
 
+from codegen.changes import apply
 from codegen.document import Document
 from codegen.instructions import Repeat, Subroutine, Wait
 from codegen.program import Place, Program, Section, Step, fresh, insert, move, remove, replace
+from widgets.program.difference import edits
 from widgets.program.model import ProgramModel
 from widgets.program.node import Node
 from widgets.program.words import Words
@@ -72,6 +74,16 @@ def test_the_rows_equal_the_document_after_any_edits(batches: list[list[tuple[in
         assert all(child.row == row for node in model.root.walk() for row, child in enumerate(node.children))
         assert set(model.nodes) == {section.value for section in Section} | {step.id for step in program.steps()}
     assert tester.model() is model
+
+
+@given(st.lists(st.integers(0, 39), min_size=1, max_size=6), st.integers(0, 40))
+@settings(max_examples=60)
+def test_moved_steps_are_told_in_few_edits(which: list[int], place: int) -> None:
+    program = Program(main=tuple(Step(f"s{number}", Wait(time="1")) for number in range(40)))
+    after = move(program, [f"s{number}" for number in which], Place(Section.MAIN, place))
+    found = edits(program, after)
+    assert apply(program, found) == after
+    assert len(found) <= len(set(which))
 
 
 def test_a_step_dragged_into_a_repeat_keeps_its_row_object() -> None:

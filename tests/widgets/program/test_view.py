@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 from PySide6.QtCore import QMimeData, QPoint, Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
@@ -22,6 +24,7 @@ from codegen.instructions import (
     Wait,
 )
 from codegen.program import Section
+from codegen.setup import Unit
 from tests.widgets.program.conftest import Window
 from widgets.form.dialog import InstructionDialog
 from widgets.program.model import CODE, NEW_MIME
@@ -205,6 +208,43 @@ def test_enter_and_double_click_change_a_step(qtbot: QtBot, window: Window) -> N
 def test_a_second_modify_brings_the_same_dialog(window: Window) -> None:
     (step_id,) = fill(window, Wait(time="20"))
     assert window.view.dialogs.modify(step_id) is window.view.dialogs.modify(step_id)
+
+
+def test_an_open_dialog_follows_the_names_of_the_program(qtbot: QtBot, window: Window) -> None:
+    dialog = window.view.dialogs.add(Jump)
+    box = dialog.form.fields.cells["target", ""].editor
+    qtbot.keyClicks(box, "en")
+    window.session.insert([Label(name="AGAIN")])
+    assert [box.itemText(index) for index in range(box.count())] == ["AGAIN"]
+    assert box.currentText() == "EN"
+    dialog.reject()
+
+
+def test_an_open_dialog_follows_the_units_of_the_machine(window: Window) -> None:
+    dialog = window.view.dialogs.add(SingleAxisMove)
+    dialog.form.show_instruction(SingleAxisMove(distance="10"))
+    setup = window.session.document.setup
+    axis = dc.replace(setup.axis("X"), counts_per_unit="1000", unit=Unit.MM)
+    window.session.set_setup(setup.with_axis("X", axis))
+    cell = dialog.form.fields.cells["distance", ""]
+    assert (cell.editor.value(), cell.unit.text(), cell.counts.text()) == ("10", "mm", "10000 counts")
+    dialog.reject()
+
+
+def test_the_note_of_a_step_is_written_in_its_dialog(qtbot: QtBot, window: Window) -> None:
+    dialog = window.view.dialogs.add(Wait)
+    qtbot.keyClicks(dialog.form.fields.cells["time", ""].editor, "20")
+    qtbot.keyClicks(dialog.note, "lamp")
+    qtbot.mouseClick(dialog.buttons["Add"], Qt.MouseButton.LeftButton)
+    (step,) = window.main()
+    assert (step.instruction, step.note) == (Wait(time="20"), "lamp")
+    again = window.view.dialogs.modify(step.id)
+    assert again.note.text() == "lamp"
+    qtbot.keyClicks(again.note, "s")
+    qtbot.mouseClick(again.buttons["Change"], Qt.MouseButton.LeftButton)
+    assert window.main()[0].note == "lamps"
+    window.session.undo()
+    assert window.main()[0].note == "lamp"
 
 
 def test_the_dialog_of_a_deleted_step_closes(window: Window) -> None:

@@ -37,6 +37,31 @@ def test_only_the_lines_that_differ_are_replaced(qtbot: QtBot) -> None:
     assert view.document().findBlockByNumber(49).text() == "WT 999"
 
 
+@given(st.lists(st.tuples(st.integers(0, 59), st.integers(1, 14), st.integers(0, 59)), max_size=8))
+@settings(max_examples=60)
+def test_lines_that_are_moved_come_out_right(moves: list[tuple[int, int, int]]) -> None:
+    view = CodeView()
+    lines = [f"WT {number % 20}" for number in range(60)]  # some are the same
+    view.show_lines(lines, {})
+    for start, count, place in moves:
+        block, rest = lines[start : start + count], lines[:start] + lines[start + count :]
+        lines = [*rest[:place], *block, *rest[place:]]
+        view.show_lines(lines, {})
+        assert view.toPlainText() == "\n".join(lines)
+    view.deleteLater()
+
+
+def test_of_moved_lines_only_these_are_written_again(qtbot: QtBot) -> None:
+    view = CodeView()
+    qtbot.addWidget(view)
+    lines = [f"WT {number}" for number in range(100, 200)]
+    view.show_lines(lines, {})
+    changes: list[tuple[int, int, int]] = []
+    view.document().contentsChange.connect(lambda *what: changes.append(what))
+    view.show_lines([*lines[:10], *lines[11:80], lines[10], *lines[80:]], {})
+    assert [removed + added for _, removed, added in changes if removed + added] == [len("WT 110\n")] * 2
+
+
 def test_the_same_lines_again_change_nothing(qtbot: QtBot) -> None:
     view = CodeView()
     qtbot.addWidget(view)
