@@ -10,7 +10,6 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 
-from app.about import about_words
 from app.actions import MAIN, RUN, Actions
 from app.connection import Connection, Connector
 from app.crash import CrashHook
@@ -107,7 +106,7 @@ class Studio(QObject):
             "disconnect": self.connection.go_offline, "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
             "stop": self.connection.stop, "help": desk.help_for_focus,
-            "about": partial(desk.ask, "About Twoletter Studio", about_words(), (), "info"),
+            "about": self._about,
         }  # fmt: skip
 
     def _fill_window(self) -> None:
@@ -188,6 +187,11 @@ class Studio(QObject):
 
     def _theme(self, name: str) -> None:
         self.desk.choose_theme(name, self.actions)
+
+    def _about(self) -> None:
+        from app.about import about_words
+
+        self.desk.ask("About Twoletter Studio", about_words(), (), "info")
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 from PySide6.QtCore import QObject, Signal
 
 from device.api import Controller, Kind
-from device.find import probe
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 
 if TYPE_CHECKING:
@@ -143,6 +142,8 @@ class Probed:
 
     def open(self) -> Transport:
         """OpenFailed with a sentence when nobody answers; runs on the link's thread."""
+        from device.find import probe
+
         if not self._known:
             found = probe(self._address, self._line, used_before=True, ask=lambda _: True)  # the person has allowed it
             if isinstance(found, str):

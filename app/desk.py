@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QCloseEvent
@@ -17,14 +18,16 @@ from app.session import Session
 from app.settings import Settings
 from app.theme import Choice, Theme
 from app.window import Window
-from codegen.rescale import Keep, with_setup
-from codegen.setup import Setup
 from widgets.display.messages import MessagesPanel
-from widgets.help.panel import HelpPanel
 from widgets.help.topic import topic_of
 from widgets.parts.question import Question
-from widgets.setup.page import SetupPage
-from widgets.terminal.code_window import CodeWindow
+
+if TYPE_CHECKING:
+    from codegen.rescale import Keep
+    from codegen.setup import Setup
+    from widgets.help.panel import HelpPanel
+    from widgets.setup.page import SetupPage
+    from widgets.terminal.code_window import CodeWindow
 
 LAYOUTS: Mapping[str, tuple[str, ...]] = {
     "Program": ("Instructions", "Display", "Problems"),
@@ -96,6 +99,8 @@ class Desk(QObject):
 
     def show_setup(self) -> None:
         """The first page of the setup."""
+        from widgets.setup.page import SetupPage
+
         if self.setup_page is not None and self.setup_page.isVisible():
             self.setup_page.raise_()
             self.setup_page.activateWindow()
@@ -108,6 +113,8 @@ class Desk(QObject):
 
     def show_help(self, page: str) -> None:
         """A help page in a window of its own."""
+        from widgets.help.panel import HelpPanel
+
         if self.help is None or self._help_panel is None:
             self.help = QDialog(self._window)
             self.help.setWindowTitle("Help")
@@ -125,6 +132,8 @@ class Desk(QObject):
 
     def show_upload(self, text: str) -> None:
         """The program that was read from the controller."""
+        from widgets.terminal.code_window import CodeWindow
+
         self.upload = CodeWindow("The program in the controller", text, self._session.listing.text, self._window)
         self.upload.save_wanted.connect(self.export_wanted)
         self.upload.show()
@@ -166,4 +175,6 @@ class Desk(QObject):
         QApplication.quit()
 
     def _take_setup(self, setup: Setup, keep: Keep) -> None:
+        from codegen.rescale import with_setup
+
         self._session.set_document(with_setup(self._session.document, setup, keep), "Change setup")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -11,8 +12,10 @@ from app.connection import Connection, Opened
 from app.search import Candidate, Search
 from app.settings import Settings
 from device.transport import LineSettings
-from widgets.connect.serial_setup import PortShown, SerialChoice, SerialSetup
-from widgets.connect.welcome import Welcome
+
+if TYPE_CHECKING:
+    from widgets.connect.serial_setup import PortShown, SerialChoice, SerialSetup
+    from widgets.connect.welcome import Welcome
 
 Ports = Callable[[], list[Candidate]]
 
@@ -60,6 +63,8 @@ class Start(QObject):
 
     def show_serial(self) -> None:
         """Serial communication setup."""
+        from widgets.connect.serial_setup import SerialSetup
+
         if self.serial is not None:
             self.serial.close()
         self.serial = SerialSetup(self.choice(), self._shown(), self._window)
@@ -91,6 +96,8 @@ class Start(QObject):
 
     def choice(self) -> SerialChoice:
         """The same as the serial set-up shows it; the first port where none was ever used."""
+        from widgets.connect.serial_setup import SerialChoice
+
         get = self._settings.get
         ports = self._ports()
         port = get("port") or (ports[0].device if ports else "")
@@ -150,6 +157,8 @@ class Start(QObject):
 
     def welcome_window(self) -> Welcome:
         """The welcome window, made when it is first needed."""
+        from widgets.connect.welcome import Welcome
+
         if self.welcome is None:
             self.welcome = Welcome(self._window)
             self.welcome.way.connect(self._way)
@@ -171,6 +180,8 @@ class Start(QObject):
         return [Candidate(each.device, each.words, each.device in used) for each in self._ports()]
 
     def _shown(self) -> list[PortShown]:
+        from widgets.connect.serial_setup import PortShown
+
         return [
             PortShown(each.device, f"{each.device} – {each.words}" if each.words else each.device)
             for each in self._ports()

@@ -49,11 +49,10 @@ class Window(QMainWindow):
         }
         self._areas: dict[Qt.DockWidgetArea, list[Dock]] = {}
         self._was_shown = False
-        self._titles, self._first = QTimer(self), QTimer(self)
-        for timer, call in ((self._titles, self.show_titles), (self._first, self.first_shown.emit)):
-            timer.setSingleShot(True)
-            timer.setInterval(0)
-            timer.timeout.connect(call)
+        self._titles = QTimer(self)
+        self._titles.setSingleShot(True)
+        self._titles.setInterval(0)
+        self._titles.timeout.connect(self.show_titles)
         self._shown: tuple[str, Kind] | None = None
         middle = QWidget()
         column = QVBoxLayout(middle)
@@ -129,7 +128,8 @@ class Window(QMainWindow):
         super().showEvent(event)
         if not self._was_shown:
             self._was_shown = True
-            self._first.start()  # docks made tabs before that leave stray tab bars behind
+            # docks made tabs before it is shown leave stray tab bars behind; the very next thing after that
+            QTimer.singleShot(0, self, self.first_shown.emit)
 
     def _size_docks(self) -> None:
         sides = [self.docks[title] for title in ("Instructions", "Display") if title in self.docks]

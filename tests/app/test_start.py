@@ -13,6 +13,7 @@ from app import connection
 from app.search import Candidate
 from app.studio import begin
 from app.which_model import known_models
+from device import find
 from device.api import Kind, State
 from device.find import Found
 from device.transport import LineSettings, OpenFailed
@@ -294,7 +295,7 @@ def test_the_search_asks_who_is_there_before_anything_else(monkeypatch: pytest.M
         order.append("probe")
         return "Nobody there." if address == "COM9" else Found(address, "SSC", None)
 
-    monkeypatch.setattr(connection, "probe", probe)
+    monkeypatch.setattr(find, "probe", probe)
     monkeypatch.setattr(connection, "open_transport", lambda address, line: order.append(f"open {address}"))
     port = connection.Probed("COM1", LineSettings())
     port.open()

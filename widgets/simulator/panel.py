@@ -20,13 +20,14 @@ from PySide6.QtWidgets import (
 )
 
 from device.api import Kind
-from widgets.panel import Panel
+from widgets.panel import Panel, set_text
 
 if TYPE_CHECKING:
     from codegen.document import Document
     from codegen.setup import Setup
     from device.api import Controller
 
+STARTING = "The simulator is starting."
 EMPTY = "The simulator is not running. Start it to flip its switches and push its load from here."
 SWITCHES = (("fls", "Forward limit"), ("rls", "Reverse limit"), ("home", "Home"))
 
@@ -78,13 +79,15 @@ class SimulatorPanel(Panel):
     def _build(self) -> None:
         """Controls for the axes and inputs there are; built again only when those change."""
         controller = self.controller
-        there = controller is not None and controller.kind is Kind.SIMULATOR
+        simulated = controller is not None and controller.kind is Kind.SIMULATOR
+        there = simulated and controller.model is not None  # not before it is known what there is to flip
+        set_text(self.empty, STARTING if simulated else EMPTY)
         self.empty.setVisible(not there)
         self._area.setVisible(there)
-        if not there or controller is None:
+        model = controller.model if controller is not None else None
+        if not there or controller is None or model is None:
             return
-        model = controller.model
-        inputs, analog = (model.inputs, model.analog_inputs) if model is not None else (8, 7)
+        inputs, analog = model.inputs, model.analog_inputs
         letters = controller.axes or "X"
         names = self._setup.input_names if self._setup is not None else ()
         wanted = (inputs, analog, letters, tuple(names))
