@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shlex
+import shutil
 import socket
 import sys
 from pathlib import Path
@@ -11,7 +13,7 @@ from app.cli.failure import UNUSABLE, Failure
 from app.cli.parser import studio_parser
 from codegen.models import MODELS
 
-NO_DISPLAY = "no display to open a window on; run the headless demo with: twoletter demo"
+NO_DISPLAY = "no display to open a window on; run the headless demo with:"
 HEADLESS_PLATFORMS = ("offscreen", "minimal", "vnc")
 
 
@@ -51,6 +53,14 @@ def way_to_connect(simulator: str | None, port: str | None, offline: bool) -> st
     return "offline" if offline else "ask"
 
 
+def own_name() -> str:
+    """How this command is called from where the person stands."""
+    name = sys.argv[0]
+    return (
+        "twoletter" if shutil.which("twoletter") or Path(name).suffix == ".py" else shlex.quote(os.path.relpath(name))
+    )
+
+
 def open_studio(arguments: list[str]) -> int:
     """`twoletter [FILE] …`"""
     options = studio_parser().parse_args(arguments)
@@ -59,7 +69,7 @@ def open_studio(arguments: list[str]) -> int:
     if path and not path.exists():
         raise Failure(f"{path}: no such file, and no such call")
     if not display_is_there():
-        raise Failure(NO_DISPLAY, UNUSABLE)
+        raise Failure(f"{NO_DISPLAY} {own_name()} demo", UNUSABLE)
     try:
         from app.studio import run_studio
     except ImportError as missing:
