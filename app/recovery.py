@@ -25,6 +25,7 @@ class Recovered:
     original: str  # path of the program it belongs to; "" for one never saved
     when: datetime
     document: Document
+    fingerprint: str = ""  # of the file the work began with
 
 
 class Recovery:
@@ -35,9 +36,14 @@ class Recovery:
         self.folder = folder
         self.file, self.lock = _free(folder)
 
-    def write(self, document: Document, original: Path | None, now: datetime) -> None:
+    def write(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
         """Keeps `document`; the former copy stays until the new one is complete on disk."""
-        kept = {"original": str(original or ""), "when": now.isoformat(), "document": dumps(document)}
+        kept = {
+            "original": str(original or ""),
+            "fingerprint": fingerprint,
+            "when": now.isoformat(),
+            "document": dumps(document),
+        }
         write_whole(self.file, json.dumps(kept))
 
     def clear(self) -> None:
@@ -66,7 +72,8 @@ class Recovery:
             try:
                 kept = json.loads(file.read_text(encoding="utf-8"))
                 when = datetime.fromisoformat(kept["when"])
-                yield Recovered(file, kept["original"], when, loads(kept["document"]))
+                fingerprint = str(kept.get("fingerprint", ""))
+                yield Recovered(file, kept["original"], when, loads(kept["document"]), fingerprint)
             except (OSError, ValueError, KeyError, TypeError, FileUnreadable):
                 continue  # half a file of a crash while writing: the one before it was already replaced
 

@@ -237,6 +237,8 @@ class Session(QObject):
         last = find(self.document.program, ids[-1])
         if takes_new_steps(last):
             self.open_body, self.before = last.id, None
+        elif last.instruction.container:  # a subroutine: it takes the next steps until its End
+            self.open_body = self.before = None
         self.insertion_changed.emit()
 
     # ---- history
@@ -315,6 +317,7 @@ class Session(QObject):
         """Opens what was left behind; it stays unsaved, under its old name."""
         original = Path(recovered.original) if recovered.original else None
         self._start(recovered.document, original, saved=False)
+        self._fingerprint = recovered.fingerprint  # of the file the work began with: a newer one is asked about
         self.autosave_now()
         self.forget(recovered)
 
@@ -330,7 +333,7 @@ class Session(QObject):
             return
         try:
             if self.dirty:
-                self._recovery.write(self.document, self.path, self._now())
+                self._recovery.write(self.document, self.path, self._now(), self._fingerprint)
             else:
                 self._recovery.clear()
         except OSError as failure:

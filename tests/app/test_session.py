@@ -14,8 +14,8 @@ from pytestqt.qtbot import QtBot
 from app.session import ChangedOnDisk, NoPath, Session
 from codegen import files
 from codegen.document import Document
-from codegen.instructions import AccelDecel, End, Label, LoopRate, Repeat, Subroutine, Wait
-from codegen.program import Place, Program, Section
+from codegen.instructions import AccelDecel, End, Label, LoopRate, Output, Repeat, Subroutine, Wait
+from codegen.program import Place, Program, Section, find
 
 NOON = datetime(2026, 11, 22, 12, 0)
 
@@ -303,6 +303,56 @@ def test_unsaved_work_is_found_after_a_crash(tmp_path: Path, session: Session, q
     assert times(session) == ["77"]
     assert session.dirty
     assert session.recoverable() == ()
+
+
+def test_recovered_work_never_overwrites_a_newer_file_in_silence(session: Session, tmp_path: Path) -> None:
+    path = tmp_path / "cutter.tlp"
+    crashed = Session(recovery_folder=tmp_path / "recovery")
+    crashed.save_as(path)
+    crashed.insert([Wait(time="1")])
+    crashed.autosave_now()
+    kept = next((tmp_path / "recovery").glob("*.recovery"))
+    left = tmp_path / "recovery" / "unsaved-8.recovery"
+    left.write_bytes(kept.read_bytes())  # as a crash leaves it: nobody holds its lock
+    later = Session()
+    later.open(path)
+    later.insert([Wait(time="2")])
+    later.save()
+    (found,) = session.recoverable()
+    session.recover(found)
+    assert (session.path, times(session)) == (path, ["1"])
+    with pytest.raises(ChangedOnDisk):
+        session.save()
+    session.save(overwrite=True)
+    crashed.close()
+
+
+def test_recovered_work_is_saved_where_nobody_else_wrote(session: Session, tmp_path: Path) -> None:
+    path = tmp_path / "cutter.tlp"
+    crashed = Session(recovery_folder=tmp_path / "recovery")
+    crashed.save_as(path)
+    crashed.insert([Wait(time="1")])
+    crashed.autosave_now()
+    kept = next((tmp_path / "recovery").glob("*.recovery"))
+    (tmp_path / "recovery" / "unsaved-8.recovery").write_bytes(kept.read_bytes())
+    (found,) = session.recoverable()
+    session.recover(found)
+    session.save()
+    assert not session.dirty
+    crashed.close()
+
+
+def test_a_subroutine_takes_the_next_steps_even_while_a_repeat_is_open(session: Session) -> None:
+    (loop,) = session.insert([Repeat(count="3")])
+    session.insert([Wait(time="1")])
+    (routine,) = session.insert([Subroutine(name="SUB1")])
+    session.insert([Output(output="1")])
+    session.insert([End()])
+    session.insert([Wait(time="2")])
+    program = session.document.program
+    assert [step.instruction for step in find(program, loop).body] == [Wait(time="1")]
+    assert [step.instruction for step in find(program, routine).body] == [Output(output="1"), End()]
+    assert program.main[-1].instruction == Wait(time="2")
 
 
 def test_the_work_of_a_running_studio_is_left_alone(session: Session, tmp_path: Path) -> None:

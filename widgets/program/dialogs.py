@@ -8,7 +8,8 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from codegen.instructions import Instruction
-from codegen.program import Place, Section, find, section_of
+from codegen.program import Place, Section, find, open_routine, section_of
+from codegen.read import sentence
 from widgets.form.dialog import InstructionDialog
 from widgets.form.offers import Offers, offers_of
 from widgets.program.node import TITLES
@@ -84,7 +85,8 @@ class Dialogs(QObject):
         if place is not None:
             step_id = self.session.insert_at(instruction, place, note)
         else:
-            (step_id,) = self.session.insert([instruction], before, Section(section) if section else None, note)
+            inside = Section.CONFIGURATION if section == "configuration" else None  # else Main or the open subroutine
+            (step_id,) = self.session.insert([instruction], before, inside, note)
         self.view.reveal_step(step_id)  # type: ignore[attr-defined]
         self.said.emit(f"Added: {instruction.title}")
 
@@ -107,4 +109,8 @@ class Dialogs(QObject):
             return ""
         if self.session.open_body is not None and kind.section not in ("C", "S"):
             return "inside the repeat"
+        program = self.session.document.program
+        routine = open_routine(program)
+        if routine is not None and "M" in kind.section:
+            return f"into {sentence(find(program, routine).instruction, self.session.document.working_setup)}"
         return {"C": f"to {TITLES['configuration']}", "S": f"to {TITLES['routines']}"}.get(kind.section, "")
