@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from codegen.models import MODELS, Model
 from device import commands, live
 from device.asking import Listing, Prompt, Waiting
+from device.clock import Clock
 from device.commands import Reply
 from device.door import Door
 from device.download import Downloaded, DownloadFailed, Job, program_lines
@@ -103,7 +104,8 @@ class Controller:
         self._document: str | None = None
         self._document_lines: list[str] = []
         self._listing_lines: list[str] = []
-        self._time: tuple[float, float] | None = None
+        self.clock_there = Clock()
+        self.doubt = False  # whether the controller may have been restarted or exchanged meanwhile
         self._used = clock()
         self.door.control = kind is Kind.SIMULATOR
         self.door.resting = self.resting
@@ -333,40 +335,28 @@ class Controller:
         """Why live values rest now: a question waits or may come at any moment; nothing when they are read."""
         return self.waiting.question or self.waiting.imminent
 
-    def _read(self, values: dict[str, float]) -> None:
-        """A poll was answered (on the link's thread)."""
+    def _read(self, values: dict[str, float], sent: float) -> None:
+        """A poll was answered that was wanted at `sent` (on the link's thread)."""
         now = self.clock()
         threads = {key: value for key, value in values.items() if key.startswith("thread")}
         if threads and self.model is not None and len(threads) == self.model.threads:
             self.waiting.threads(frozenset(int(value) for value in threads.values() if value >= 0))
         if "time" in values:
-            self._check_clock(values["time"], now)
+            self._events.clock_read(values["time"], sent, now)
         if self.kind is Kind.MACHINE and self.control and now - self._used > self.idle_limit_s:
             self.release_control("Back to Watch: nothing was done for a while.")
         if self.state is State.LOST:
-            self._answers_again()
+            self._events.answers_again()
 
-    def _check_clock(self, samples: float, now: float) -> None:
-        """A clock that went back means the controller was restarted."""
-        if self._time is not None and samples + 200 < self._time[0] and not self._time[0] > 2.1e9:
-            self._restarted()
-        self._time = (samples, now)
-
-    def _restarted(self) -> None:
-        self.listing = None
-        self.waiting.listing = None
+    def restarted(self, what: str) -> None:
+        """What was known of the controller's memory and places is known no longer (on the link's thread)."""
+        self.set_listing(None)
         self.waiting.restarted()
         self.notify(
-            NoticeKind.RESTARTED, "The controller was restarted: homed marks and the program badge are no longer known."
+            NoticeKind.RESTARTED, f"The controller {what}: homed marks and the program badge are no longer known."
         )
         if self.kind is Kind.MACHINE:
-            self.release_control("Back to Watch: the controller was restarted.")
-
-    def _answers_again(self) -> None:
-        self.state, self.state_text = State.READY, "Connected"
-        self.show_stop(StopState.READY)
-        self.notify(NoticeKind.CONNECTED, "The controller answers again.")
-        self.link.submit(self._events.again(), Priority.USER, "poll")
+            self.release_control(f"Back to Watch: the controller {what}.")
 
     # --------------------------------------------------------------- programs
 
@@ -386,7 +376,7 @@ class Controller:
 
     @property
     def program_badge(self) -> Badge:
-        if self.listing is None:
+        if self.listing is None or self.doubt:
             return Badge.UNKNOWN
         if self._document is None:
             return Badge.CHANGED

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from codegen.models import MODELS
 from device import commands
 from device.asking import Listing
+from device.clock import Reading, Verdict
 from device.download import recover, upload_steps
 from device.happenings import Kind, NoticeKind, State
-from device.identify import Identity, identify, read_surely
+from device.identify import Identity, identify, read_once, read_surely
 from device.stop import StopState
 from device.tasks import LinkLost, NotAllowed, Priority, Steps, Stopped, Wait
+from device.wire import Kind as AnswerKind
 from device.wire import Shape
 
 if TYPE_CHECKING:
     from device.api import Controller
+
+LAG_S = 3.0  # readings closer than this follow each other without a gap
 
 
 class Events:
@@ -24,17 +29,19 @@ class Events:
 
     def __init__(self, controller: Controller) -> None:
         self._c = controller
+        self._checking = False
 
     def opened(self) -> None:
         c = self._c
+        self._checking = False
         c.state, c.state_text = State.CONNECTING, "Asking who is there…"
-        c.link.submit(self._meet_surely(), Priority.USER, "poll")
+        c.link.submit(self._meet_surely(self._meet), Priority.USER, "poll")
 
-    def _meet_surely(self) -> Steps[None]:
+    def _meet_surely(self, steps: Callable[[], Steps[None]]) -> Steps[None]:
         """Meeting again after whatever came in between (STOP, silence)."""
         while True:
             try:
-                yield from self._meet()
+                yield from steps()
                 return
             except (LinkLost, Stopped, NotAllowed) as reason:
                 if self._c.link.transport is None:
@@ -43,18 +50,25 @@ class Events:
                 yield Wait(0.3)
 
     def _meet(self) -> Steps[None]:
-        """Identifies, learns whether a program runs and may ask, then starts reading."""
+        """Meets over a line just opened, then starts reading."""
         c = self._c
-        identity = yield from self._identify()
-        self._know(identity)
-        c.waiting.restarted()
-        yield from self._programs()
-        c.state, c.state_text = State.READY, f"Connected: {identity.text or 'unknown controller'}"
+        yield from self._get_to_know()
+        identity = c.identity
+        text = identity.text if identity is not None else ""
+        c.state, c.state_text = State.READY, f"Connected: {text or 'unknown controller'}"
         c.show_stop(StopState.READY)
-        c.notify(NoticeKind.IDENTIFIED, f"Connected to {identity.text or 'a controller that does not name itself'}.")
+        c.notify(NoticeKind.IDENTIFIED, f"Connected to {text or 'a controller that does not name itself'}.")
         if c.model is None:
             c.notify(NoticeKind.IDENTIFIED, "This controller's type is not known; choose it to see live values.")
         c.link.submit(c.poller.run(), Priority.POLL, "poll")
+
+    def _get_to_know(self) -> Steps[None]:
+        """Identifies, compares the clock, learns whether a program runs and may ask."""
+        before = self._c.identity
+        self._know((yield from self._identify()))
+        self._c.waiting.restarted()
+        yield from self._compare(before)
+        yield from self._programs()
 
     def _know(self, identity: Identity) -> None:
         """The type: as it says itself, as chosen before for this serial number, or as expected; never guessed."""
@@ -63,11 +77,91 @@ class Events:
         remembered = MODELS.get(c.known_models.get(identity.serial, "")) if identity.serial is not None else None
         c.take_model(identity.model or remembered or c.expected_model)
 
-    def again(self) -> Steps[None]:
-        """After silence on the same line: another controller may be there now."""
+    # ----------------------------------------------------- the same as before?
+
+    def answers_again(self) -> None:
+        """Reads are answered again on a line that was never closed: who is it, and was it switched off?"""
         c = self._c
-        self._know((yield from identify(c.nonces, c.line.address)))
-        yield from self._programs()
+        if self._checking:
+            return
+        self._checking = True
+        c.state, c.state_text = State.CONNECTING, "Answers again; asking who is there…"
+        c.link.submit(self._meet_surely(self._again), Priority.USER, "poll")
+
+    def _again(self) -> Steps[None]:
+        c = self._c
+        yield from self._get_to_know()
+        self._checking = False
+        c.state, c.state_text = State.READY, "Connected"
+        if c.stop_state in (StopState.NO_LINK, StopState.NOT_CONFIRMED):
+            c.show_stop(StopState.READY)
+        c.notify(NoticeKind.CONNECTED, "The controller answers again.")
+
+    def clock_read(self, samples: float, sent: float, came: float) -> None:
+        """A live reading of the clock; where it is not as expected, everything is asked again."""
+        c = self._c
+        reading = Reading(samples, c.clock_there.period, sent, came)
+        if self._checking or c.state is not State.READY:
+            return
+        if not c.doubt and self._as_expected(reading):
+            c.clock_there.keep(reading)
+            return
+        self._checking = c.doubt = True
+        c.link.submit(self._check_again(), Priority.USER, "poll")
+
+    def _as_expected(self, reading: Reading) -> bool:
+        """A simulation may lag behind true time, so while it is read all the time only a step back counts."""
+        c = self._c
+        last = c.clock_there.last
+        if c.kind is Kind.SIMULATOR and last is not None and reading.came - last.came <= LAG_S:
+            return reading.samples >= last.samples
+        verdict = c.clock_there.judge(reading)
+        if verdict is Verdict.ANOTHER and c.kind is Kind.SIMULATOR:
+            return last is None or reading.samples >= last.samples
+        return verdict in (Verdict.FIRST, Verdict.AS_EXPECTED)
+
+    def _check_again(self) -> Steps[None]:
+        try:
+            before = self._c.identity
+            self._know((yield from identify(self._c.nonces, self._c.line.address)))
+            yield from self._compare(before)
+            yield from self._programs()
+        finally:
+            self._checking = False
+
+    def _compare(self, before: Identity | None) -> Steps[None]:
+        """Whether this is the controller of before, running since: by its name, its number and its clock."""
+        c = self._c
+        now = yield from self._read_clock()
+        identity = c.identity
+        same = before is None or (
+            identity is not None
+            and (before.text, before.serial, before.axes) == (identity.text, identity.serial, identity.axes)
+        )
+        what = ""
+        if not same:
+            what = "is another one than before"
+        elif now is None:
+            what = "does not tell its clock" if before is not None else ""
+        elif not self._as_expected(now):
+            restarted = c.clock_there.judge(now) is not Verdict.ANOTHER
+            what = "was restarted" if restarted else "was restarted or is another one (its clock is not as expected)"
+        if now is not None:
+            c.clock_there.keep(now)
+        c.doubt = False
+        if what:
+            c.restarted(what)
+
+    def _read_clock(self) -> Steps[Reading | None]:
+        c = self._c
+        both = [("TIME", Shape(10, 0)), ("_TM", Shape(5, 0))]
+        for reads in (both, both, both[:1]):
+            sent = c.clock()
+            answer = yield from read_once(c.nonces, *reads)
+            if answer.kind is AnswerKind.VALUES:
+                samples, period = (*answer.values, c.clock_there.period)[:2]
+                return Reading(samples, period, sent, c.clock())
+        return None
 
     def _identify(self) -> Steps[Identity]:
         c = self._c
@@ -98,6 +192,7 @@ class Events:
         if not refused and c.link.transport is not None and c.state is not State.READY:
             return  # not met yet: whoever is asking tells
         new = c.state is not State.LOST or c.state_text != sentence
+        c.doubt = c.identity is not None
         c.state, c.state_text = State.LOST, sentence
         if c._stop_state is StopState.STOPPING:
             c.show_stop(StopState.NOT_CONFIRMED)

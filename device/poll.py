@@ -46,7 +46,7 @@ class Poller:
         clock: Callable[[], float],
         nonces: Iterator[str],
         suspended: Callable[[], str],
-        read: Callable[[dict[str, float]], None],
+        read: Callable[[dict[str, float], float], None],
     ) -> None:
         self.ring = Ring(())
         self.columns = 80
@@ -119,7 +119,7 @@ class Poller:
         if answer.kind is Kind.VALUES:
             values = {key: value for (key, _, _), value in zip(request, answer.values, strict=True)}
             self.ring.write(values, now, keep=self.wanted() + ALWAYS)
-            self._read(values)
+            self._read(values, start)
         elif answer.kind is Kind.UNCERTAIN and "?" in answer.text:
             yield from self._find_refused(request)
         cost = max(len(text) + 1, sum(shape.width for shape in shapes) + 7) * self._line.byte_s

@@ -74,7 +74,8 @@ def test_an_unknown_controller_is_asked_about_once_and_remembered_by_its_serial_
         (b"\x12\x16", b"DMC1425 Rev 1.0i\r\n:"),
         (b'MG{^30},"aa",_BN{F10.0},{^31}\r', b"\x1eaa 0000000777\x1f\r\n:"),
         (b'TP;MG{^30},"ba",{^31}\r', b" 0000000001, 0000000002\r\n:\x1eba\x1f\r\n:"),
-        (b'MG{^30},"ca",_XQ0{F4.0},{^31}\r', b"\x1eca-0001\x1f\r\n:"),
+        (b'MG{^30},"ca",TIME{F10.0},_TM{F5.0},{^31}\r', b"\x1eca 0000001024 01000\x1f\r\n:"),
+        (b'MG{^30},"da",_XQ0{F4.0},{^31}\r', b"\x1eda-0001\x1f\r\n:"),
     )
     transport = Scripted(*script)
     controller = Controller(lambda: transport, kind=Kind.MACHINE, clock=transport.clock, threaded=False)

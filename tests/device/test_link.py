@@ -11,8 +11,9 @@ from device.transport.scripted import Scripted
 HELLO = (
     (b"\x12\x16", b"DMC1412 Rev 1.0a\r\n:"),
     (b'MG{^30},"aa",_BN{F10.0},{^31}\r', b"\x1eaa 0000001234\x1f\r\n:"),
-    (b'MG{^30},"ba",_XQ0{F4.0},{^31}\r', b"\x1eba-0001\x1f\r\n:"),
-    (b'MG{^30},"ca",_XQ1{F4.0},{^31}\r', b"\x1eca-0001\x1f\r\n:"),
+    (b'MG{^30},"ba",TIME{F10.0},_TM{F5.0},{^31}\r', b"\x1eba 0000001024 01000\x1f\r\n:"),
+    (b'MG{^30},"ca",_XQ0{F4.0},{^31}\r', b"\x1eca-0001\x1f\r\n:"),
+    (b'MG{^30},"da",_XQ1{F4.0},{^31}\r', b"\x1eda-0001\x1f\r\n:"),
 )
 
 
@@ -44,7 +45,7 @@ def test_hello() -> None:
 
 
 def test_a_command_and_its_proof() -> None:
-    transport, controller = talking((b'SP 1000;MG{^30},"da",{^31}\r', b":\x1eda\x1f\r\n:"))
+    transport, controller = talking((b'SP 1000;MG{^30},"ea",{^31}\r', b":\x1eea\x1f\r\n:"))
     reply = controller.ask("SP 1000")
     finish(controller, transport)
     assert reply.result(0).accepted
@@ -55,8 +56,8 @@ def test_a_command_and_its_proof() -> None:
 
 def test_a_refusal_is_proved_and_explained() -> None:
     transport, controller = talking(
-        (b'SP -1;MG{^30},"da",{^31}\r', b"?"),
-        (b'MG{^30},"ea",_TC{F3.0},{^31}\r', b"\x1eea 006\x1f\r\n:"),
+        (b'SP -1;MG{^30},"ea",{^31}\r', b"?"),
+        (b'MG{^30},"fa",_TC{F3.0},{^31}\r', b"\x1efa 006\x1f\r\n:"),
     )
     reply = controller.ask("SP -1")
     finish(controller, transport)
@@ -66,7 +67,7 @@ def test_a_refusal_is_proved_and_explained() -> None:
 
 
 def test_a_question_mark_in_a_message_is_no_refusal() -> None:
-    transport, controller = talking((b'SP 1000;MG{^30},"da",{^31}\r', b"READY?\r\n:\x1eda\x1f\r\n:"))
+    transport, controller = talking((b'SP 1000;MG{^30},"ea",{^31}\r', b"READY?\r\n:\x1eea\x1f\r\n:"))
     reply = controller.ask("SP 1000")
     finish(controller, transport)
     assert reply.result(0).accepted
@@ -74,7 +75,7 @@ def test_a_question_mark_in_a_message_is_no_refusal() -> None:
 
 
 def test_no_answer_is_a_lost_link() -> None:
-    transport, controller = talking((b'SP 1000;MG{^30},"da",{^31}\r', b""))
+    transport, controller = talking((b'SP 1000;MG{^30},"ea",{^31}\r', b""))
     reply = controller.ask("SP 1000")
     finish(controller, transport)
     with pytest.raises(LinkLost, match="No answer to “SP 1000”"):
@@ -92,12 +93,12 @@ def test_an_error_of_the_program_is_a_fault() -> None:
 def test_stop_goes_before_what_is_queued() -> None:
     transport, controller = talking(
         (b"ST\r", b":"),
-        (b'HX;MG{^30},"da",{^31}\r', b":\x1eda\x1f\r\n:"),
-        (b'MG{^30},"ea",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1eea 1-0001\x1f\r\n:"),
-        (b'MG{^30},"fa",_XQ1{F4.0},{^31}\r', b"\x1efa-0001\x1f\r\n:"),
-        (b'MG{^30},"ga",_TVX{F8.0},_DCX{F10.0},{^31}\r', b"\x1ega 00020000 0000256000\x1f\r\n:"),
-        (b'MG{^30},"ha",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1eha 0-0001\x1f\r\n:"),
-        (b'MG{^30},"ia",_XQ1{F4.0},{^31}\r', b"\x1eia-0001\x1f\r\n:"),
+        (b'HX;MG{^30},"ea",{^31}\r', b":\x1eea\x1f\r\n:"),
+        (b'MG{^30},"fa",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1efa 1-0001\x1f\r\n:"),
+        (b'MG{^30},"ga",_XQ1{F4.0},{^31}\r', b"\x1ega-0001\x1f\r\n:"),
+        (b'MG{^30},"ha",_TVX{F8.0},_DCX{F10.0},{^31}\r', b"\x1eha 00020000 0000256000\x1f\r\n:"),
+        (b'MG{^30},"ia",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1eia 0-0001\x1f\r\n:"),
+        (b'MG{^30},"ja",_XQ1{F4.0},{^31}\r', b"\x1eja-0001\x1f\r\n:"),
     )
     waiting = controller.ask("BG X")
     controller.stop()
@@ -132,7 +133,7 @@ def test_a_port_that_does_not_open_says_why_and_is_tried_again() -> None:
 
 
 def test_a_lost_port_fails_what_is_under_way() -> None:
-    transport, controller = talking((b'SP 1000;MG{^30},"da",{^31}\r', b""), kind=Kind.SIMULATOR)
+    transport, controller = talking((b'SP 1000;MG{^30},"ea",{^31}\r', b""), kind=Kind.SIMULATOR)
     reply = controller.ask("SP 1000")
     controller.link.step()
     transport.lost = True
