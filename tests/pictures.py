@@ -44,8 +44,13 @@ def main(arguments: list[str]) -> int:
 
 
 def _in_a_process(*arguments: str, scale: int) -> None:
-    surroundings = {"QT_QPA_PLATFORM": "offscreen", **os.environ, "QT_SCALE_FACTOR": str(scale)}
-    subprocess.run([sys.executable, "-m", "tests.pictures", *arguments], check=True, env=surroundings)
+    from tests.dialog_pictures import display
+
+    surroundings = {**os.environ, "QT_SCALE_FACTOR": str(scale)}
+    with tempfile.TemporaryDirectory() as folder:
+        if surroundings.get("QT_QPA_PLATFORM", "offscreen") == "offscreen":
+            surroundings["QT_QPA_PLATFORM"] = display(Path(folder), scale)
+        subprocess.run([sys.executable, "-m", "tests.pictures", *arguments], check=True, env=surroundings)
 
 
 def take(out: Path, theme: str, scale: int) -> None:
@@ -116,17 +121,15 @@ def scenes(folder: Path, theme: str) -> Iterator[tuple[str, QWidget]]:
 
 
 def _program(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    from codegen.instructions import ALL
+    from tests.dialog_pictures import dialog_scenes, inspector_scenes
 
     program = stage.studio.program
     for mode in ("both", "code"):
         program.set_view(mode)
         yield f"program-{mode}", stage.studio.window
     program.set_view("program")
-    for kind in ALL:
-        dialog = program.dialogs.add(kind)
-        yield f"instruction-{kind.title.lower().replace(' ', '-').replace('/', '-')}", dialog
-        dialog.reject()
+    yield from dialog_scenes()
+    yield from inspector_scenes()
 
 
 def running(stage: Stage, kind: str) -> None:
