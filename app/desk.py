@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QApplication, QDialog, QVBoxLayout
 
+import resources
 from app.actions import Actions
 from app.files import Files
 from app.run import Answers
@@ -20,6 +21,7 @@ from app.theme import Choice, Theme
 from app.window import Window
 from widgets.display.messages import MessagesPanel
 from widgets.help.topic import topic_of
+from widgets.parts.pictures import fit_pictures
 from widgets.parts.question import Question
 
 if TYPE_CHECKING:
@@ -120,11 +122,17 @@ class Desk(QObject):
             self.help.setWindowTitle("Help")
             self.help.resize(880, 640)
             self._help_panel = HelpPanel(self._pages)
+            self._help_panel.browser.setSearchPaths([str(resources.path("help"))])
+            self._help_panel.opened.connect(lambda _: self._fit_pictures())
             column = QVBoxLayout(self.help)
             column.addWidget(self._help_panel)
-        self._help_panel.open(page)
         self.help.show()
+        self._help_panel.open(page if page in self._pages else "Program window")
         self.help.raise_()
+
+    def _fit_pictures(self) -> None:
+        if self._help_panel is not None:
+            fit_pictures(self._help_panel.browser)
 
     def help_for_focus(self) -> None:
         """Help for whatever has the focus."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from PySide6.QtWidgets import QApplication
 import resources
 from app.compose import Studio
 from app.connection import connector, seeker
+from app.help_pages import Pages
 from app.search import Candidate
 from app.settings import Settings, data_folder, settings_path
 from app.which_model import known_models
@@ -31,7 +31,7 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
     idle_s, known = partial(_idle_s, settings), partial(known_models, settings)
     connect_to = connector(folder / "programs", idle_s, known)
     seek = seeker(folder / "programs", idle_s, known)
-    studio = Studio(application, settings, folder, connect_to, list_ports, help_pages(), seek=seek)
+    studio = Studio(application, settings, folder, connect_to, list_ports, Pages(), seek=seek)
     studio.crash.install()
     studio.window.show()
     studio.tick.start()
@@ -66,11 +66,3 @@ def list_ports() -> list[Candidate]:
     from device.find import ports
 
     return [Candidate(port.device, port.description, port.used_before) for port in ports()]
-
-
-def help_pages() -> Mapping[str, str]:
-    """Every help page by its title: our own of the windows, and one for each instruction."""
-    from codegen.docs import pages
-
-    texts = [path.read_text(encoding="utf-8") for path in sorted(resources.path("help").glob("*.md"))]
-    return {**{text.partition("\n")[0].removeprefix("# "): text for text in texts}, **pages()}

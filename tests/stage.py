@@ -13,9 +13,9 @@ from PySide6.QtWidgets import QApplication
 import resources
 from app.compose import Studio
 from app.connection import Opened
+from app.help_pages import Pages
 from app.search import Candidate
 from app.settings import Settings
-from app.studio import help_pages
 from app.which_model import known_models
 from device.api import Badge, Controller, Kind, LineSettings, State
 from tests.rig import Rig
@@ -149,7 +149,7 @@ def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.
         clock.add(rig)
         return Opened(rig.controller, rig.simulation if simulated else None)
 
-    studio = Studio(application, settings, folder, connect, lambda: list(ports), help_pages(), clock=clock)
+    studio = Studio(application, settings, folder, connect, lambda: list(ports), Pages(), clock=clock)
     if example:  # a copy: whatever is clicked, the one that is shipped stays as it is
         studio.session.open(Path(shutil.copy(resources.path(f"examples/{example}"), folder)))
     return Stage(studio, clock, ports, silent)

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.studio import help_pages
+from app.help_pages import Pages
 from tests.app.test_stop import PLACES
 from tests.stage import Stage
 from widgets.help.topic import topic_of
@@ -169,18 +169,18 @@ def test_f1_opens_the_page_of_the_panel_that_has_the_focus(stage: Stage, title: 
 @pytest.mark.parametrize("place", ["the welcome window", "the serial setup", "the setup"])
 def test_every_dialog_names_a_page_that_exists(place: str, stage: Stage) -> None:
     page = topic_of(PLACES[place](stage))
-    assert page in help_pages()
+    assert page in Pages()
 
 
 def test_stop_and_the_switch_have_pages_of_their_own(stage: Stage) -> None:
     header = stage.studio.window.header
-    assert topic_of(header.stop) in help_pages()
-    assert topic_of(header.switch.watch) in help_pages()
-    assert topic_of(stage.studio.program.tree) in help_pages()
+    assert topic_of(header.stop) in Pages()
+    assert topic_of(header.switch.watch) in Pages()
+    assert topic_of(stage.studio.program.tree) in Pages()
 
 
 def test_every_link_between_pages_leads_somewhere() -> None:
-    pages = help_pages()
+    pages = Pages()
     links = [link for text in pages.values() for link in re.findall(r"\(page:([^)]+)\)", text)]
     assert links
     assert all(link.replace("%20", " ") in pages for link in links)

@@ -16,8 +16,9 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit
 
 from app.compose import Studio
 from app.connection import connector
+from app.help_pages import Pages
 from app.settings import Settings
-from app.studio import begin, help_pages
+from app.studio import begin
 from codegen.models import MODELS
 from device.api import Badge, Kind, State
 from tests.app.hands import PATIENCE_S, Hands, Keys, Mouse, shown, until
@@ -62,7 +63,7 @@ def studios(tmp_path: Path, qapp: QApplication) -> Iterator[list[Studio]]:
 def start(folder: Path, studios: list[Studio], application: QApplication) -> Studio:
     """A studio as on a fresh machine, or as it was left."""
     settings = Settings(folder / "settings.json")
-    studio = Studio(application, settings, folder, connector(folder / "programs", lambda: 600.0), list, help_pages())
+    studio = Studio(application, settings, folder, connector(folder / "programs", lambda: 600.0), list, Pages())
     studios.append(studio)
     studio.window.show()
     studio.tick.start()
