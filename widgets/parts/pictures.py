@@ -24,7 +24,7 @@ def fit_pictures(browser: QTextBrowser) -> None:
             if image.isNull() or image.width() <= room:
                 continue
             picture.setWidth(room)
-            picture.setHeight(room * image.height() / image.width())
+            picture.setHeight(round(room * image.height() / image.width()))
             cursor = QTextCursor(browser.document())
             cursor.setPosition(fragment.position())
             cursor.setPosition(fragment.position() + fragment.length(), QTextCursor.MoveMode.KeepAnchor)
