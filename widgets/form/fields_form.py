@@ -88,6 +88,8 @@ class FieldsForm(QWidget):
         problem = read.problem_of(self.item, name, setup, axis)
         if isinstance(cell.editor, RowsEditor) and cell.editor.rows:
             problem = None  # the open row says it at the field
+        elif problem and isinstance(cell.editor, RowsEditor):
+            problem = cell.editor.invitation
         label = fields.fields_of(self.item)[name].label
         counts = read.counts_text(self.item, name, setup, axis)
         cell.show_facts(

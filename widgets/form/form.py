@@ -14,6 +14,7 @@ from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
 from widgets.form.pictures import PICTURES
 from widgets.form.preview import Preview
+from widgets.form.rows import RowsEditor
 
 LEAST = 48  # height below which fields are not pressed together, px
 
@@ -107,7 +108,11 @@ class InstructionForm(QWidget):
     def problem(self) -> str:
         """The first reason why the instruction is not right; empty when it is."""
         errors = compiled(self.instruction, self.offers.setup).errors
-        return errors[0].message if errors else ""
+        if not errors:
+            return ""
+        cell = self.fields.cells.get((errors[0].field, ""))
+        empty = cell is not None and isinstance(cell.editor, RowsEditor) and not cell.editor.rows
+        return cell.editor.invitation if cell is not None and empty else errors[0].message
 
     def show_instruction(self, instruction: Instruction) -> None:
         """Shows `instruction`; typing places stay where they are if it is of the same kind."""

@@ -70,6 +70,11 @@ class RowsEditor(QWidget):
         if beside:
             entries.addStretch(1)
 
+    @property
+    def invitation(self) -> str:
+        """What an empty list that must not be empty says."""
+        return f"Add at least one entry to “{self.field.label}”"
+
     def value(self) -> tuple[Any, ...]:
         return self.rows
 

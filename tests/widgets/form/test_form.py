@@ -15,6 +15,7 @@ from codegen.instructions import (
     Label,
     MathematicalEquation,
     PidGains,
+    Print,
     SingleAxisMove,
     TwoLetterCode,
     Wait,
@@ -226,3 +227,13 @@ def test_a_note_is_told_apart_from_the_values(qtbot: QtBot) -> None:
     inspector.noted.connect(lambda *what: noted.append(what))
     qtbot.keyClicks(inspector.note, "s")
     assert noted == [("s1", "lamps")]
+
+
+def test_an_empty_list_says_what_to_do(qtbot: QtBot) -> None:
+    dialog = InstructionDialog(Print(), offers(), new=True)
+    qtbot.addWidget(dialog)
+    cell = dialog.form.fields.cells["items", ""]
+    assert cell.problem.text() == "! Add at least one entry to “Items”"
+    assert dialog.buttons["Add"].toolTip() == "Add at least one entry to “Items”"
+    qtbot.mouseClick(cell.editor.buttons["add"], Qt.MouseButton.LeftButton)
+    assert "Text" in dialog.buttons["Add"].toolTip()
