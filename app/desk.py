@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QApplication, QDialog, QVBoxLayout
 
@@ -123,6 +123,7 @@ class Desk(QObject):
             self.help.resize(880, 640)
             self._help_panel = HelpPanel(self._pages)
             self._help_panel.browser.setSearchPaths([str(resources.path("help"))])
+            self._help_panel.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
             self._help_panel.opened.connect(lambda _: self._fit_pictures())
             column = QVBoxLayout(self.help)
             column.addWidget(self._help_panel)

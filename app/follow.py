@@ -20,6 +20,7 @@ from app.window import Window
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.api import Kind, NoticeKind, Row, State
 from widgets.display.display import DisplayPanel
+from widgets.display.readings import age_of, fresh
 from widgets.display.threads import thread_words
 from widgets.panel import Panel
 from widgets.parts.units import shown
@@ -98,13 +99,16 @@ class Follow(QObject):
             status.show_program("")
             status.show_position("")
             return
-        line = row.value("thread0")
+        now = controller.clock()
         source = (controller.listing or "").splitlines()
-        status.show_program(thread_words(0, line, source) if math.isfinite(line) else "")
+        known = math.isfinite(row.value("thread0"))
+        status.show_program(thread_words(0, fresh(row, "thread0", now), source) if known else "")
         letter = controller.axes[:1]
         if letter:
             axis = self._session.document.setup.axis(letter)
-            status.show_position(f"{letter} {shown(row.value(f'position.{letter.lower()}'), axis)} {axis.symbol}")
+            key = f"position.{letter.lower()}"
+            age = age_of(row, key, now)
+            status.show_position(f"{letter} {shown(row.value(key), axis)} {axis.symbol}" + (f" ({age})" if age else ""))
 
     def _link_words(self) -> str:
         controller = self._connection.controller
@@ -112,9 +116,8 @@ class Follow(QObject):
             return "nothing connected"
         if controller.state is not State.READY:
             return controller.state_text
-        name = (
-            controller.identity.text if controller.identity is not None and controller.identity.text else "controller"
-        )
+        said = controller.identity.text if controller.identity is not None else ""
+        name = controller.model.name.upper() if controller.model is not None else said or "controller"
         baud = f" · {controller.line.baud:,} baud".replace(",", " ") if controller.line.baud else ""
         return f"{name}{baud} · {controller.polling_text}"
 
@@ -140,7 +143,8 @@ class Program(Panel):
             self._display.show_source(self._source or "")
         row = controller.last()
         threads = controller.model.threads if controller.model is not None else 1
-        lines = {number: _line(row.value(f"thread{number}")) for number in range(threads)}
+        now = controller.clock()
+        lines = {number: _line(fresh(row, f"thread{number}", now)) for number in range(threads)}
         if controller.listing is None:
             lines = {}
         if lines != self._executing:

@@ -6,13 +6,13 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from device.api import Kind, State
 from widgets.display.levels import Levels
 from widgets.display.position import AxisReadout
-from widgets.display.readings import axis_shown, switches_of
+from widgets.display.readings import axis_shown, fresh, switches_of
 from widgets.display.switches import SwitchTable
 from widgets.display.threads import ThreadList
 from widgets.panel import Panel, set_text
@@ -85,7 +85,8 @@ class DisplayPanel(Panel):
             self.switches.show_axis(letter, switches_of(row, letter, now))
         self.inputs.show_byte(row.value("inputs"), row.stale("inputs", now))
         self.outputs.show_byte(row.value("outputs"), row.stale("outputs", now))
-        self.threads.show_threads([row.value(f"thread{number}") for number in range(self._threads)], self._source)
+        lines = [fresh(row, f"thread{number}", now) for number in range(self._threads)]
+        self.threads.show_threads(lines, self._source)
         self._show_rate()
         self._show_io_control()
 
@@ -141,7 +142,9 @@ class DisplayPanel(Panel):
     def _show_axes(self, letters: str) -> None:
         for letter in tuple(self.axes):
             if letter not in letters:
-                self.axes.pop(letter).deleteLater()
+                gone = self.axes.pop(letter)
+                gone.hide()
+                gone.deleteLater()
         for index, letter in enumerate(letters):
             if letter not in self.axes:
                 self.axes[letter] = AxisReadout(letter)
@@ -170,12 +173,8 @@ class DisplayPanel(Panel):
             ways.addWidget(button)
         ways.addStretch(1)
         outer.addWidget(self._ways)
-        self._body = QScrollArea()
-        self._body.setWidgetResizable(True)
-        self._body.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self._body.setFrameShape(QFrame.Shape.NoFrame)
         inside = QWidget()
-        self._body.setWidget(inside)
+        self._body = Column(inside)
         outer.addWidget(self._body, 1)
         outer.addStretch(0)
         column = QVBoxLayout(inside)
@@ -202,6 +201,26 @@ class DisplayPanel(Panel):
             line.addWidget(beside)
         column.addLayout(line)
         column.addWidget(widget)
+
+
+class Column(QScrollArea):
+    """Scrolls up and down, and is never narrower than what is in it: a number cut off is another number."""
+
+    def __init__(self, inside: QWidget) -> None:
+        super().__init__()
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidget(inside)
+
+    def minimumSizeHint(self) -> QSize:
+        least = super().minimumSizeHint()
+        bar = self.verticalScrollBar().sizeHint().width()
+        return least.expandedTo(QSize(self.widget().minimumSizeHint().width() + bar, 0))
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if watched is self.widget() and event.type() is QEvent.Type.LayoutRequest:
+            self.updateGeometry()
+        return super().eventFilter(watched, event)
 
 
 def _names(given: tuple[str, ...], count: int) -> list[str]:

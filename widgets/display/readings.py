@@ -68,6 +68,7 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
     low = letter.lower()
     position = row.value(f"position.{low}")
     switches = switches_of(row, letter, now)
+    known = switches if not switches.stale else Switches()  # an old "stopped" may be false by now
     unit = axis.symbol
     error = row.value(f"error.{low}")
     return AxisShown(
@@ -76,9 +77,9 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
         commanded=shown(row.value(f"commanded.{low}"), axis),
         error=NOTHING if not math.isfinite(error) else f"{shown(error, axis)} {unit}",
         speed=_speed(row.value(f"velocity.{low}"), axis, unit),
-        moving=switches.moving,
-        motor_on=switches.motor_on,
-        fault=fault_of(switches, row.value(f"stop_code.{low}")),
+        moving=known.moving,
+        motor_on=known.motor_on,
+        fault="" if switches.stale else fault_of(switches, row.value(f"stop_code.{low}")),
         age=age_of(row, f"position.{low}", now),
         fraction=_fraction(position, axis),
     )
@@ -96,6 +97,11 @@ def age_of(row: Row, key: str, now: float) -> str:
         if seconds < 120
         else f"{seconds / 60:.0f} min old"
     )
+
+
+def fresh(row: Row, key: str, now: float) -> float:
+    """A value that is as new as it should be; NaN, not known, when it is older."""
+    return math.nan if row.stale(key, now) else row.value(key)
 
 
 def bit(value: float, number: int) -> bool | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QTextCharFormat, QTextCursor
+from PySide6.QtGui import QKeyEvent, QShowEvent, QTextCharFormat, QTextCursor
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -62,8 +62,6 @@ class TerminalPanel(Panel):
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
         self._seen = 0
-        if controller.kind is not Kind.OFFLINE:
-            self.write("note", f"— {controller.state_text} —")
 
     def refresh(self, row: Row) -> None:
         controller = self.controller
@@ -80,6 +78,8 @@ class TerminalPanel(Panel):
             self.write("said", notice.text)
         elif notice.kind is NoticeKind.FAULT:
             self.write("refused", notice.text)
+        elif notice.kind in (NoticeKind.IDENTIFIED, NoticeKind.LOST, NoticeKind.CONNECTED):
+            self.write("note", f"— {notice.text} —")
 
     def show_reply(self, command: str, reply: Reply) -> None:
         """What the controller answered to a typed command."""
@@ -100,13 +100,24 @@ class TerminalPanel(Panel):
         token, sign = STYLES[style]
         shape = QTextCharFormat()
         shape.setForeground(look().colour(token))
+        bar = self.log.verticalScrollBar()
+        follows = bar.value() >= bar.maximum() - 2 or not self.isVisible()
         cursor = self.log.textCursor()
         cursor.movePosition(QTextCursor.MoveOperation.End)
         if not self.log.document().isEmpty():
             cursor.insertBlock()
         cursor.insertText(sign + text.rstrip("\r\n"), shape)
-        if self.log.verticalScrollBar().value() >= self.log.verticalScrollBar().maximum() - 2:
-            self.log.setTextCursor(cursor)
+        if follows:
+            self._show_end()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self._show_end()
+
+    def _show_end(self) -> None:
+        """The newest lines."""
+        self.log.moveCursor(QTextCursor.MoveOperation.End)
+        self.log.ensureCursorVisible()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Up and down bring back earlier lines."""

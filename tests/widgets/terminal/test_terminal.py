@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.theme import Choice, Theme
-from device.api import Controller, Kind, Prompt, Reply
+from device.api import Controller, Kind, Prompt, Reply, State
 from tests.rig import Rig
 from widgets.terminal.code_window import CodeWindow
 from widgets.terminal.prompt import PromptBox
@@ -100,6 +100,29 @@ def test_where_a_program_stopped_is_shown_as_a_refusal(terminal: TerminalPanel, 
     rig.start("PR 1000;BGX\nPR 5000;BGX\nEN")  # the second begin comes while X moves
     hear(terminal, rig)
     assert any(line.startswith("? ") and "001 PR 5000;BGX" in line for line in terminal.log.toPlainText().splitlines())
+
+
+def test_it_shows_the_newest_lines_but_stays_where_somebody_reads(terminal: TerminalPanel) -> None:
+    terminal.resize(400, 160)
+    for number in range(40):
+        terminal.write("said", f"line {number}")
+    bar = terminal.log.verticalScrollBar()
+    assert 0 < bar.maximum() == bar.value()
+    bar.setValue(3)
+    terminal.write("said", "one more")
+    assert bar.value() == 3
+    terminal.hide()
+    terminal.show()
+    assert bar.value() == bar.maximum()
+
+
+def test_it_says_what_is_connected_and_when_it_is_lost(terminal: TerminalPanel, rig: Rig) -> None:
+    hear(terminal, rig)
+    assert "— Connected to DMC1520 Rev 2.0h. —" in terminal.log.toPlainText()
+    rig.cut()
+    rig.until(lambda: rig.controller.state is State.LOST)
+    hear(terminal, rig)
+    assert "— The controller does not answer. —" in terminal.log.toPlainText()
 
 
 def test_live_reads_are_shown_when_asked_for(terminal: TerminalPanel, rig: Rig) -> None:
