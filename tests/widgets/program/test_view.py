@@ -290,6 +290,17 @@ def test_steps_go_into_a_subroutine_until_its_end(window: Window) -> None:
     assert [step.instruction for step in window.main()] == [Wait(time="2")]
 
 
+def test_a_step_for_either_section_goes_into_the_open_subroutine(qtbot: QtBot, window: Window) -> None:
+    window.session.insert([Subroutine(name="CUT")])
+    dialog = window.view.dialogs.add(Comment)
+    assert dialog.place.text() == "into Subroutine CUT"
+    qtbot.keyClicks(dialog.form.fields.cells["text", ""].editor, "blade")
+    assert dialog.section.chosen() == ["main"]
+    qtbot.mouseClick(dialog.buttons["Add"], Qt.MouseButton.LeftButton)
+    (routine,) = window.session.document.program.routines
+    assert [step.instruction for step in routine.body] == [Comment(text="blade")]
+
+
 def test_comment_out_shows_a_quote_and_sends_nothing_and_comes_back(window: Window) -> None:
     (step_id,) = fill(window, Wait(time="20"))
     window.view.tree.choose([step_id])
