@@ -101,8 +101,7 @@ class Follow(QObject):
             return
         now = controller.clock()
         source = (controller.listing or "").splitlines()
-        known = math.isfinite(row.value("thread0"))
-        status.show_program(thread_words(0, fresh(row, "thread0", now), source) if known else "")
+        status.show_program(thread_words(0, fresh(row, "thread0", now), source))
         letter = controller.axes[:1]
         if letter:
             axis = self._session.document.setup.axis(letter)

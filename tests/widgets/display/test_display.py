@@ -8,8 +8,9 @@ import re
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from app.theme import Choice, Theme
@@ -212,6 +213,29 @@ def test_where_the_axis_stands_between_its_limits(bench: Bench) -> None:
     assert shown_now.fraction == pytest.approx(0.5)  # 10 of 0..20 in
 
 
+def test_no_number_is_cut_off_at_the_right(qtbot: QtBot) -> None:
+    panel, rig = DisplayPanel(), Rig("simulator", "ssc4")
+    qtbot.addWidget(panel)
+    panel.show_document(None, Document(setup=Setup(model="ssc4")))
+    rig.until(lambda: rig.controller.state is State.READY)
+    panel.attach(rig.controller)
+    rig.type("DP -1234567,7654321,-99999,123456789")
+    rig.values(tuple(f"{name}.{axis}" for name in ("position", "commanded", "error", "switches") for axis in "xyzw"))
+    panel.resize(200, 600)
+    panel.show()
+    panel.refresh(rig.controller.last())
+    qtbot.wait(50)
+    panel.resize(panel.minimumSizeHint().width(), 600)  # as a dock does
+    qtbot.wait(50)
+    seen = panel._body.viewport()
+    for label in panel._body.findChildren(QLabel):
+        right = label.mapTo(seen, QPoint(label.width(), 0)).x()
+        assert right <= seen.width(), f"{label.text()!r} ends {right - seen.width()} px outside"
+        wide_enough = label.wordWrap() or label.width() >= label.sizeHint().width()
+        assert wide_enough, f"{label.text()!r} is cut"
+    assert panel.axes["Y"].commanded.text() == "commanded 7654321"
+
+
 def test_stale_values_are_greyed_with_their_age(bench: Bench) -> None:
     panel, rig = bench.panel, bench.rig
     rig.type("DP 6370")
@@ -226,6 +250,8 @@ def test_stale_values_are_greyed_with_their_age(bench: Bench) -> None:
     assert panel.axes["X"].age.text() == "12 s old"
     assert panel.axes["X"].position.text() == "10.000"
     assert "stale" in panel.inputs.lamps[0].words
+    assert "X axis: 10.000 in, ? unknown, commanded 10.000" in panel.words()  # it may move by now
+    assert "Thread 0: not known" in panel.words()
     rig.loopback.unplugged = False
     rig.until(lambda: rig.controller.state is State.READY)
     rig.values((*X, "inputs"))
