@@ -118,7 +118,8 @@ class Follow(QObject):
         said = controller.identity.text if controller.identity is not None else ""
         name = controller.model.name.upper() if controller.model is not None else said or "controller"
         baud = f" · {controller.line.baud:,} baud".replace(",", " ") if controller.line.baud else ""
-        return f"{name}{baud} · {controller.polling_text}"
+        reads = f"{controller.rate_hz:.0f} reads/s" if controller.polling else controller.polling_text
+        return f"{name}{baud} · {reads}"
 
 
 class Program(Panel):

@@ -58,7 +58,7 @@ class SerialSetup(QDialog):
         self.setModal(False)
         self.port = QComboBox()
         self.port.setEditable(True)
-        self.port.setMinimumWidth(280)
+        self.port.setMinimumWidth(344)
         self.baud, self.bits, self.stop_bits = QComboBox(), QComboBox(), QComboBox()
         self.parity, self.handshake = QComboBox(), QComboBox()
         self.echo = QCheckBox("Controller echoes what it receives")

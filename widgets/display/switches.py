@@ -31,6 +31,7 @@ class SwitchTable(QWidget):
         for letter in tuple(self._cells):
             if letter not in letters:
                 for label in self._cells.pop(letter):
+                    label.hide()
                     label.deleteLater()
                 self._shown.pop(letter, None)
         for column, letter in enumerate(letters, start=1):
