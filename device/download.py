@@ -19,7 +19,10 @@ from device.transport import LineSettings
 from device.wire import Answer, Kind, Prompts, Proof, Shape, Upload, framed
 
 T = TypeVar("T")
-SETTLE_S = 0.08  # how long a refusal of DL may take to arrive
+SETTLE_S = 0.05  # a refusal's way here at least: adapters keep bytes up to 16 ms (twice that), the controller needs 10
+LONGEST_SETTLE_S = 0.5  # over slow networks
+MARGIN_S = 0.02  # beyond the way there and back that a read took just before
+FENCE_BYTES = len(framed("xx", [("_TC", Shape(3, 0))])) + 1 + 11  # there and back
 
 
 class DownloadFailed(LinkError):
@@ -113,6 +116,7 @@ class Download:
         self._job, self._model, self._line = job, model, line
         self._nonces, self._clock, self._folder, self._today = nonces, clock, folder, today
         self._phase = "before anything was sent"
+        self._settle_s = SETTLE_S
         self.touched = False
         self.unfinished = False
 
@@ -163,6 +167,10 @@ class Download:
             raise LinkLost("no answer")
         if any(value >= 0 for value in answer.values):
             raise DownloadFailed("Not downloaded: a program is running. Halt it first.")
+        start = self._clock()
+        if (yield from fence(self._nonces)).kind is Kind.VALUES:
+            way = self._clock() - start - FENCE_BYTES * self._line.byte_s
+            self._settle_s = min(max(way + MARGIN_S, SETTLE_S), LONGEST_SETTLE_S)
 
     def _keep_old(self) -> Steps[Path | None]:
         self._phase = "while the old program was read"
@@ -177,7 +185,7 @@ class Download:
         total = len(self.lines)
         self.unfinished = True
         yield Send(b"DL\r", hold=True, watch_for=b"?")
-        settled = yield Wait(SETTLE_S, hold=True, watch_for=b"?")
+        settled = yield Wait(self._settle_s + 4 * self._line.byte_s, hold=True, watch_for=b"?")
         self._reply_where_none_belongs(settled, -1)
         self.touched = True
         for number, line in enumerate(self.lines):
@@ -191,8 +199,10 @@ class Download:
             answer = yield Send(line.encode("ascii") + b"\r", hold=True, watch_for=b"?:", stored=True)
             self._reply_where_none_belongs(answer, number)
             if paced or number == 0:
-                pause = 0.02 + 2 * self._line.byte_s * (len(line) + 1)
-                answer = yield Wait(pause if number else pause + SETTLE_S, hold=True, watch_for=b"?:")
+                self._job.show("sending", number + 1, total)
+                pause = (len(line) + 2) * self._line.byte_s
+                pause += self._settle_s if number == 0 else pause + 0.02
+                answer = yield Wait(pause, hold=True, watch_for=b"?:")
                 self._reply_where_none_belongs(answer, number)
         self._phase = "after the last line"
         self._job.show("finishing", total, total)

@@ -64,6 +64,7 @@ class Link:
         self._holder: Task[Any] | None = None
         self._out = bytearray()
         self._clear_at = 0.0
+        self._handed = 0  # bytes given to the transport in this round
         self._deadline = 0.0
         self._last_byte = 0.0
         self._told_rest = ""
@@ -134,11 +135,20 @@ class Link:
                 self._begin_stop()
             self._flush()
             self._receive()
-            self._settle()
-            self._start_next()
-            self._flush()
+            self._handed = 0
+            while True:
+                self._settle()
+                self._start_next()
+                self._flush()
+                if not self._goes_on():
+                    break
         except TransportLost as reason:
             self.drop(str(reason))
+
+    def _goes_on(self) -> bool:
+        """Lines that get no answer follow each other without a gap, but replies are looked for every 32 bytes."""
+        step = self._current.step if self._current is not None else None
+        return not self._out and isinstance(step, Send) and step.expect is None and 0 < self._handed < AHEAD
 
     def _open(self) -> bool:
         while self._incoming:
@@ -374,6 +384,7 @@ class Link:
             return
         sent = self.transport.write(bytes(self._out[:room]))
         del self._out[:sent]
+        self._handed += sent
         self._clear_at = max(self._clear_at, now) + sent * byte_s
         if not self._out and task is not None and isinstance(task.step, Send):
             self._deadline = self._clear_at + task.step.timeout_s

@@ -11,11 +11,11 @@ from tests.benchmarks.figure import Figure
 
 BAUD = 19200
 BITS = 10
-LINES = 120
+LINES = 500
 
 
 def listing() -> str:
-    """A program as technicians write it: short lines, 120 of them."""
+    """A program as technicians write it: short lines, as many as a large machine needs."""
     body = [f"PR {1000 + number * 7};SP 20000;BGX;AMX" for number in range(LINES - 2)]
     return "\n".join(["#A", *body, "EN"])
 
