@@ -215,6 +215,8 @@ class _Parser:
         return self.marked(token.text)
 
     def marked(self, mark: str) -> Expression:
+        if mark in "+-" and self.peek() in ("+", "-"):
+            raise _Wrong("two signs stand next to each other: keep one")
         if mark == "-":
             inner = self.value()
             return Number(-inner.value) if isinstance(inner, Number) and not inner.hexadecimal else Negative(inner)

@@ -117,6 +117,9 @@ def test_clear_expressions(text: str) -> None:
             "there is no function @FOO; there are @ABS, @AN, @COM, @COS, @FRAC, @IN, @INT, @OUT, @RND, @SIN, @SQR",
         ),
         ("A+", "something is missing at the end"),
+        ("--5", "two signs stand next to each other: keep one"),  # a slip that would turn the direction round
+        ("+-5", "two signs stand next to each other: keep one"),
+        ("A*(-+B)", "two signs stand next to each other: keep one"),
         ("", "an expression is missing"),
         ("LONGVARIABLE", "the name LONGVARIABLE is longer than 8 characters"),
         ("(((((A)))))", "the controller understands at most 4 brackets inside each other"),
