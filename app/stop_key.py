@@ -29,7 +29,8 @@ class StopKey(QObject):
         self._application.removeEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() not in SEEN or not isinstance(event, QKeyEvent) or event.key() != KEY:
+        # every event of the program comes through here: its type is asked last, because that is what takes time
+        if not isinstance(event, QKeyEvent) or event.key() != KEY or event.type() not in SEEN:
             return False
         event.accept()
         if event.type() is QEvent.Type.KeyPress and not event.isAutoRepeat():
