@@ -116,8 +116,9 @@ def connect_simulator(hands: Hands) -> None:
 
 def flip_input(hands: Hands, high: bool) -> None:
     hands.act("simulator_panel")
-    box = hands.studio.simulator.inputs[1]
-    until(box.isVisible, "the simulator panel")
+    panel = hands.studio.simulator
+    until(lambda: 1 in panel.inputs and panel.inputs[1].isVisible(), "the simulator panel")
+    box = panel.inputs[1]
     if box.isChecked() != high:
         hands.press(box)
     assert box.isChecked() == high
