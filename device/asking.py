@@ -67,6 +67,15 @@ class Listing:
         shown = rest.strip()
         return tuple(q.line for q in self.questions if shown.endswith(q.prompt.strip()))
 
+    def asked(self, line: int) -> str:
+        """The text of the question in a line."""
+        return next((question.prompt for question in self.questions if question.line == line), "")
+
+    def ends_at(self, line: int, text: str) -> bool:
+        """Whether an error told with this line and text ends its thread: it is ours, and no #CMDERR takes it."""
+        lines = self.text.split("\n")
+        return "CMDERR" not in self._labels and line < len(lines) and bool(text) and lines[line].strip() == text.strip()
+
     def after(self, lines: tuple[int, ...]) -> frozenset[int]:
         """Where thread 0 may be once one of these questions is answered."""
         doubled = {line for line in lines if [q.line for q in self.questions].count(line) > 1}
@@ -209,12 +218,12 @@ class Waiting:
         if self.prompt is not None or self.position == frozenset() or not rest.strip(" :?\r\n"):
             return False
         if self.listing is None:
-            self.prompt = Prompt(rest)
+            self.prompt = Prompt(rest.lstrip(" :?\r\n"))  # without the controller's own prompts
             return True
         lines = self.listing.waiting(rest)
         if not lines:
             return False
-        self.prompt = Prompt(rest, lines)
+        self.prompt = Prompt(self.listing.asked(lines[0]), lines)
         return True
 
     def answered(self) -> None:
@@ -225,6 +234,15 @@ class Waiting:
         else:
             self.position = None
         self.prompt = None
+
+    def failed(self, line: int, text: str) -> None:
+        """The controller told of an error: the thread that was there has ended; others go on."""
+        listing = self.listing
+        if listing is None or self.position is None or not listing.ends_at(line, text):
+            return
+        if self.prompt is not None and line in self.prompt.lines:
+            self.prompt = None
+        self.position = frozenset(at for at in self.position if line not in listing.reachable(frozenset({at})))
 
     def _asking(self, lines: frozenset[int]) -> frozenset[int]:
         """Of these lines those from which the answered question was reached."""

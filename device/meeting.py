@@ -207,12 +207,16 @@ class Events:
         c = self._c
         fault = re.fullmatch(r"\?\s*(\d{3}) (.*)", line)
         c.notify(NoticeKind.FAULT if fault else NoticeKind.MESSAGE, line)
+        if fault is not None:
+            c.waiting.failed(int(fault.group(1)), fault.group(2))
+            c.door.question = c.waiting.question
 
     def standing(self, rest: str) -> None:
         c = self._c
         if c.waiting.seen(rest):
             c.door.question = c.waiting.question
-            c.notify(NoticeKind.PROMPT, rest)
+            prompt = c.waiting.prompt
+            c.notify(NoticeKind.PROMPT, prompt.text if prompt is not None else rest)
 
     def sent(self, data: bytes, source: str) -> None:
         """What leaves may change what the controller holds or waits for."""

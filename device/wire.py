@@ -19,6 +19,7 @@ from enum import Enum
 
 OPEN, CLOSE = 30, 31  # the characters that frame a read
 LATE = re.compile("\x1e([a-z0-9]{2})[ 0-9.-]*\x1f\r\n")
+FAULT = re.compile(r"\?\s*[0-9]{3} ")
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
 
 
@@ -340,7 +341,8 @@ class Wire:
             line = self._unprompted(raw, take=True)
             if raw and not line:
                 continue
-            echo = next((echo for echo in self._echoes if line.endswith(echo)), "")
+            told = FAULT.match(line)  # an error tells the line of the program, which we may have sent a moment ago
+            echo = "" if told else next((echo for echo in self._echoes if line.endswith(echo)), "")
             if not echo or line != echo:
                 self._lines.append(line.removesuffix(echo))
 

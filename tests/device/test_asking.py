@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from device.api import LinkError, NotAllowed, NoticeKind
-from device.asking import Listing
+from device.asking import Listing, Waiting
 from device.live import columns
 from tests.device.bench import Bench
 
@@ -176,3 +176,60 @@ def test_lines_typed_after_dl_are_not_mixed_with_reads() -> None:
         bench.run(0.5)
     bench.result(controller.ask("\\"))
     assert bench.result(controller.upload().future).split() == ["#A", "PR", "100", "EN"]
+
+
+def test_the_second_question_is_shown_without_the_controllers_prompts() -> None:
+    bench = Bench("ssc4").ready()
+    controller = bench.controller
+    bench.result(controller.download('#A\nIN "Length?",LEN\nJP #A,LEN<0\nIN "Width?",W\nJP #A\nEN').future)
+    bench.result(controller.execute("A", anyway=True))
+    for expected, answer in (("Length?", "-1"), ("Length?", "5"), ("Width?", "7"), ("Length?", "1")):
+        bench.run_until(lambda: controller.pending_prompt is not None)
+        assert controller.pending_prompt is not None
+        assert controller.pending_prompt.text == expected
+        bench.result(controller.answer(answer))
+    texts = [notice.text for notice in controller.notices() if notice.kind is NoticeKind.PROMPT]
+    assert texts == ["Length?", "Length?", "Width?", "Length?"]
+
+
+def test_a_question_of_an_unknown_program_is_shown_without_the_controllers_prompts() -> None:
+    waiting = Waiting()
+    assert waiting.seen(":?:Length?")
+    assert waiting.prompt is not None
+    assert waiting.prompt.text == "Length?"
+
+
+def test_reading_goes_on_after_a_program_died_of_an_error_at_its_question() -> None:
+    """`?` and the line: the thread has ended (dmc-1412-1414.txt, error handling), so nothing will ask."""
+    bench = Bench("ssc4").ready()
+    controller = bench.controller
+    controller.watch("all", ["position.x"])
+    bench.result(controller.download('#A\nWT 5\nIN "Length?",LEN\nJP #A\nEN').future)
+    bench.result(controller.execute("A", anyway=True))
+    bench.run_until(lambda: controller.pending_prompt is not None)
+    bench.result(controller.answer("@@"))
+    faults: list[str] = []
+    while not faults:
+        bench.run(0.1)
+        faults += [notice.text for notice in controller.notices() if notice.kind is NoticeKind.FAULT]
+    assert faults == ['?002 IN "Length?",LEN']
+    bench.run(1.5)
+    assert not controller.resting()
+    assert controller.pending_prompt is None
+    assert controller.polling
+    assert not controller.last().stale("position.x", controller.clock())
+    assert bench.result(controller.read("_TC"))[0] > 0
+    assert not bench.simulation.state()["threads"][0]["running"]
+
+
+def test_an_error_elsewhere_or_one_that_is_caught_ends_no_thread() -> None:
+    listing = '#A\nIN "X",V\nJP #A\n#B\nWT 10\nJP #B\nEN'
+    for text, told, left in (
+        (listing, (4, "WT 10"), {0}),
+        (listing, (1, "PR 7"), {0, 3}),
+        (listing + "\n#CMDERR\nEN", (1, 'IN "X",V'), {0, 3}),
+    ):
+        waiting = Waiting()
+        waiting.listing, waiting.position = Listing(text), frozenset({0, 3})
+        waiting.failed(*told)
+        assert waiting.position == left
