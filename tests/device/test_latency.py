@@ -16,7 +16,9 @@ from device.simulator.process import SimulatorProcess
 from device.transport import LineSettings, Transport, open_transport
 from tests.long import count, record
 
-LISTING = "\n".join(["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(100)), "EN"])
+LISTING = "\n".join(
+    ["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(count(30, 100))), "EN"]
+)
 NO_PTY = pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
 LIMIT_MS = {19200: 60.0, 9600: 110.0}
 
@@ -126,7 +128,8 @@ def test_latency_of_stop(baud: int) -> None:
             wait_until(lambda: controller.stop_state is StopState.STOPPED)
             wait_until(lambda: controller.polling)
     taken.sort()
-    p99 = taken[min(int(len(taken) * 0.99), len(taken) - 1)]
+    # of 21 trials the worst is beyond the true p99 in 19 % of runs, the second worst in 2 %: that one is judged
+    p99 = taken[-2] if len(taken) < 100 else taken[int(len(taken) * 0.99)]
     record(f"stop latency p99 at {baud}", "pytest tests/device/test_latency.py", 0, p99, "ms")
     print(f"stop latency at {baud}: median {taken[len(taken) // 2]:.1f} ms, p99 {p99:.1f} ms, worst {taken[-1]:.1f} ms")
     assert p99 <= LIMIT_MS[baud]

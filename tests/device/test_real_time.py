@@ -10,7 +10,7 @@ import time
 
 import pytest
 
-from device.api import Controller
+from device.api import Controller, Kind, LineSettings, State
 from device.simulator.process import SimulatorProcess
 from tests.device.test_latency import NO_PTY, connected, wait_until
 from tests.long import record
@@ -74,15 +74,23 @@ def test_a_studio_that_dies_while_holding_leaves_the_axis_standing(end: str) -> 
 
 
 @pytest.mark.alone
-def test_connecting_again_and_again_to_the_same_controller() -> None:
-    with SimulatorProcess("dmc1412") as process:
+@pytest.mark.parametrize("pty", [False, pytest.param(True, marks=NO_PTY)])
+@pytest.mark.parametrize("program", ["", "#A\nN=N+1;MG N\nWT 20\nJP #A\nEN", '#A\nIN "LENGTH",L\nJP #A\nEN'])
+def test_connecting_again_and_again_to_the_same_controller(pty: bool, program: str) -> None:
+    """Left at any moment, also while a program talks or asks: connected again within 2 s, every time."""
+    line = LineSettings(baud=19200)
+    with SimulatorProcess("dmc1412", pty=pty, baud=19200) as process:
         for turn in range(6):
-            controller = Controller.connect(process.address)
+            began = time.monotonic()
+            controller = Controller.connect(process.address, line, kind=Kind.SIMULATOR)
             controller.watch("all", ["position.x", "inputs"])
             try:
-                wait_until(lambda: controller.polling and controller.last().has("inputs"), 10.0)  # noqa: B023
-                time.sleep(0.013 * turn)
+                wait_until(lambda: controller.state is State.READY, 15.0)  # noqa: B023
+                assert turn == 0 or time.monotonic() - began < 2.0  # the first waits for the simulator to start
                 assert controller.model is not None
-                assert controller.notices()[-1].kind != "question"
+                if turn == 0 and program:
+                    controller.download(program).future.result(20)
+                    assert controller.execute("A", anyway=True).result(5).accepted
+                time.sleep(0.037 * turn)
             finally:
                 controller.close()
