@@ -16,6 +16,7 @@ from app.crash import CrashHook
 from app.desk import Desk
 from app.files import Files
 from app.follow import Follow, Program
+from app.leaving import Leaving
 from app.run import Run
 from app.search import Candidate, Search
 from app.session import Session
@@ -28,6 +29,7 @@ from app.tick import Tick
 from app.which_model import WhichModel
 from app.window import BOTTOM, LEFT, RIGHT, Window
 from codegen.document import Document
+from codegen.generate import Listing
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
@@ -64,6 +66,7 @@ class Studio(QObject):
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self)
+        self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.window)
@@ -126,18 +129,33 @@ class Studio(QObject):
     def _join(self) -> None:
         for panel in self.panels:
             self.tick.add(panel)
-        for look in (self.ear.look, self.follow.look, self.which.look, self.search.look, self.stop_key.stay_first):
+        for look in (
+            self.leaving.look,
+            self.ear.look,
+            self.follow.look,
+            self.which.look,
+            self.search.look,
+            self.stop_key.stay_first,
+        ):
             self.tick.each(look)
         self._join_window()
         self._join_talk()
         self.connection.changed.connect(self._attach)
         self.session.document_changed.connect(self._document_changed)
+        self.session.replaced.connect(self._another_document)
         self.start.setup_wanted.connect(self.desk.show_setup)
         self.start.exit_wanted.connect(self._exit)
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)
-        for said in (self.files.said, self.run.said, self.start.said, self.talk.said, self.session.autosave_failed):
+        for said in (
+            self.files.said,
+            self.run.said,
+            self.start.said,
+            self.talk.said,
+            self.leaving.said,
+            self.session.autosave_failed,
+        ):
             said.connect(self.desk.say)
         for complaint in self.settings.complaints:
             self.desk.say(complaint)
@@ -147,7 +165,7 @@ class Studio(QObject):
         window.resize(1400, 860)
         window.first_shown.connect(self.desk.restore)
         window.stop.connect(self.connection.stop)
-        window.closing.connect(lambda event: self.desk.closing(event, self.files))
+        window.closing.connect(self.leaving.asked)
         window.status.progress.cancelled.connect(self.run.cancel)
         window.submenus["recent"].aboutToShow.connect(lambda: self.desk.fill_recent(self.files))
         self.desk.export_wanted.connect(self.files.export_code)
@@ -181,9 +199,14 @@ class Studio(QObject):
             panel.show_document(old, new)
         self.connection.controller.show_listing(self.session.listing.text)
 
-    def _downloaded(self) -> None:
+    def _downloaded(self, listing: Listing) -> None:
         self.program.clear_error()
-        self.program.running = self.session.listing
+        self.program.running = listing
+
+    def _another_document(self) -> None:
+        """What runs belongs to the document before; its lines say nothing about this one."""
+        self.program.clear_error()
+        self.program.running = None
 
     def _theme(self, name: str) -> None:
         self.desk.choose_theme(name, self.actions)

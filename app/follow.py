@@ -18,7 +18,7 @@ from app.session import Session
 from app.tick import Tick, failure_of
 from app.window import Window
 from codegen.twoletter.problems import ERROR_TEXTS
-from device.api import Kind, NoticeKind, Row, State
+from device.api import Badge, Kind, NoticeKind, Row, State
 from widgets.display.display import DisplayPanel
 from widgets.display.readings import age_of, fresh
 from widgets.display.threads import thread_words
@@ -90,6 +90,7 @@ class Follow(QObject):
             threads = controller.model.threads if controller.model is not None else 1
             first = controller.axes[:1].lower()
             keys = [f"thread{number}" for number in range(threads)]
+            keys += [f"moving.{letter.lower()}" for letter in controller.axes]  # leaving asks for it
             controller.watch(OWNER, [*keys, *([f"position.{first}"] if first else [])])
 
     def _status(self, row: Row) -> None:
@@ -145,7 +146,7 @@ class Program(Panel):
         threads = controller.model.threads if controller.model is not None else 1
         now = controller.clock()
         lines = {number: _line(fresh(row, f"thread{number}", now)) for number in range(threads)}
-        if controller.listing is None:
+        if not self._is_shown():
             lines = {}
         if lines != self._executing:
             self._executing = lines
@@ -160,10 +161,18 @@ class Program(Panel):
         def done(future: Future[Any]) -> None:
             code = 0 if failure_of(future) else int(future.result()[0])
             reason = ERROR_TEXTS.get(code, "the controller stopped here")
-            self._view.show_error(line, f"{reason} ({source})")
+            if self._is_shown():
+                self._view.show_error(line, f"{reason} ({source})")
             self._say(f"The program stopped at line {line}: {reason} ({source}).")
 
         self._tick.when_done(self.controller.read("_TC"), done)
+
+    def _is_shown(self) -> bool:
+        """Whether the lines of the controller's program are rows of the open document (as downloaded, or the same)."""
+        controller = self.controller
+        if controller is None or controller.listing is None:
+            return False
+        return self._view.running is not None or controller.program_badge is Badge.SAME
 
 
 def _line(value: float) -> int | None:

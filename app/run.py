@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from app.connection import Connection
 from app.session import Session
 from app.tick import Tick, failure_of
+from codegen.generate import Listing
 from codegen.program import program_label
 from device.api import Badge, Job
 
@@ -28,7 +29,7 @@ class Run(QObject):
 
     said = Signal(str)
     uploaded = Signal(str)
-    downloaded = Signal()
+    downloaded = Signal(object)  # the Listing that is now in the controller
     show_problem = Signal(str)  # step id
 
     def __init__(
@@ -69,8 +70,9 @@ class Run(QObject):
         )
 
     def _download(self, then: Callable[[], None] | None) -> None:
-        job = self._connection.controller.download(self._session.listing.text)
-        self._begin("Downloading", job, lambda done: self._downloaded(done, then))
+        listing = self._session.listing  # as sent: the document may change meanwhile
+        job = self._connection.controller.download(listing.text)
+        self._begin("Downloading", job, lambda done: self._downloaded(done, listing, then))
 
     def execute(self) -> None:
         """Runs the program when it is the one that was verified; otherwise asks which one is meant."""
@@ -125,10 +127,10 @@ class Run(QObject):
         reply = future.result()
         self.said.emit("The program runs." if reply.accepted else f"The controller refused to run it: {reply.reason}")
 
-    def _downloaded(self, future: Future[Any], then: Callable[[], None] | None) -> None:
+    def _downloaded(self, future: Future[Any], listing: Listing, then: Callable[[], None] | None) -> None:
         done = future.result()
         if done.verified:
-            self.downloaded.emit()
+            self.downloaded.emit(listing)
         self.said.emit(done.sentence)
         if then is not None and done.verified:
             then()

@@ -51,6 +51,7 @@ class Session(QObject):
 
     document_changed = Signal(object, object)  # old Document, new Document
     history_changed = Signal()
+    replaced = Signal()  # another document was begun: new, opened, recovered
     insertion_changed = Signal()
     changed_on_disk = Signal(str)
     autosave_failed = Signal(str)
@@ -378,6 +379,7 @@ class Session(QObject):
         self._saved = document if saved else Document()
         self.open_body = self.before = None
         self._watch()
+        self.replaced.emit()
         self.document_changed.emit(old, document)
         self.insertion_changed.emit()
         self._after_save()
