@@ -21,6 +21,11 @@ class Figure:
         """Whether the bound is kept."""
         return (self.least is None or self.value >= self.least) and (self.most is None or self.value <= self.most)
 
+    def within(self, slack: float) -> bool:
+        """Whether it is no more than `slack` times worse than its bound."""
+        high_enough = self.least is None or self.value * slack >= self.least
+        return high_enough and (self.most is None or self.value <= self.most * slack)
+
     @property
     def bound(self) -> str:
         """The bound in words."""

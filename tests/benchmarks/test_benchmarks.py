@@ -1,4 +1,8 @@
-"""The figures of speed keep their bounds (each runs without company)."""
+"""The figures of speed keep their bounds (each runs without company).
+
+The long run holds every figure to its bound and writes it down. The everyday run measures the same, but on whatever
+computer it runs, beside whatever else goes on there; it fails where a figure is more than twice as bad as its bound.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +15,16 @@ from tests.benchmarks.all import SINGLE
 from tests.benchmarks.editing import SEED
 from tests.benchmarks.figure import Figure
 from tests.benchmarks.start import start_figures
-from tests.long import record
+from tests.long import is_long, record
 
 COMMAND = "python -m tests.benchmarks"
 NEEDS_LINUX = ("served_idle", "download_share")
+SLACK = 2.0
+
+
+def kept(figure: Figure) -> bool:
+    """Whether the figure is good enough for this run."""
+    return figure.reached if is_long() else figure.within(SLACK)
 
 
 def note(figure: Figure, seed: int | None = None) -> None:
@@ -29,17 +39,17 @@ def test_speed(measure: Callable[[], Figure]) -> None:
     if measure.__name__ in NEEDS_LINUX and not sys.platform.startswith("linux"):
         pytest.skip("measured on Linux")
     figure = measure()
-    if not figure.reached:  # once more: another process may have been in the way
+    if not kept(figure):  # once more: another process may have been in the way
         figure = measure()
     note(figure, SEED if measure.__name__ == "many_edits" else None)
-    assert figure.reached, str(figure)
+    assert kept(figure), str(figure)
 
 
 @pytest.mark.alone
 def test_start() -> None:
     figures = start_figures()
-    if not all(figure.reached for figure in figures):
+    if not all(map(kept, figures)):
         figures = start_figures()
     for figure in figures:
         note(figure)
-    assert all(figure.reached for figure in figures), "; ".join(map(str, figures))
+    assert all(map(kept, figures)), "; ".join(map(str, figures))
