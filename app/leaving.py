@@ -53,6 +53,8 @@ class Leaving(QObject):
         if controller.resting():
             return "A program may run: live values rest."
         row = controller.last()
+        if row.stale("thread0", controller.clock()):
+            return "What the machine does now is not known."
         found = ["a program runs"] if any(row.value(f"thread{number}") >= 0 for number in range(THREADS)) else []
         moving = [letter for letter in controller.axes if _moves(row.value(f"moving.{letter.lower()}"))]
         if moving:

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QPushButton
 
 from codegen.instructions import Wait
 from codegen.program import replace
-from device.api import Badge
+from device.api import Badge, State
 from tests.stage import Stage
 
 JOG = "#A\nJG 5000\nBGX\n#B\nJP #B\n"
@@ -97,3 +97,13 @@ def test_another_document_carries_no_marks_of_the_program_that_runs(stage: Stage
     stage.go(5)
     assert stage.studio.program.running is None
     assert stage.studio.program.delegate.executing == {}
+
+
+def test_values_that_are_too_old_do_not_say_that_nothing_moves(stage: Stage) -> None:
+    rig = stage.connect("machine", "ssc1")
+    stage.until(lambda: rig.controller.last().value("moving.x") == 0)
+    assert stage.studio.leaving.going_on() == ""
+    rig.loopback.unplugged = True
+    stage.until(lambda: stage.studio.leaving.going_on() != "", 3.0)
+    assert stage.studio.leaving.going_on() == "What the machine does now is not known."
+    assert rig.controller.state is State.READY  # the loss itself is not noticed yet
