@@ -1,11 +1,10 @@
-"""The main job, whole: from dialogs to a moving machine, over a paced serial line, by mouse and by keyboard alone.
+"""The main job, whole: from dialogs to a moving machine on the served simulator, by mouse and by keyboard alone.
 
 The program is the wire cutter of `dmc-1412-1414.txt` l.4018-4035; its machine has 637 counts an inch.
 """
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,7 +23,6 @@ from device.api import Badge, Kind, State
 from tests.app.hands import PATIENCE_S, Hands, Keys, Mouse, shown, until
 from widgets.setup.page import SetupPage
 
-BAUD = 19200
 CODE = [
     "#CUTTER",
     "AC 254976",  # 637 × 400 = 254 800, the nearest multiple of 1024
@@ -44,7 +42,7 @@ CODE = [
 ]
 WAITING = CODE.index("AI 1")
 
-pytestmark = [pytest.mark.alone, pytest.mark.skipif(os.name != "posix", reason="needs a pseudo-terminal")]
+pytestmark = pytest.mark.alone
 
 
 @pytest.fixture
