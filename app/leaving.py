@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QCloseEvent
@@ -40,6 +41,15 @@ class Leaving(QObject):
         if not self._run.doing:
             answers.insert(0, ("Stop and leave", self._stop))
         self._desk.ask(TITLE, f"{words} Without this window there is no STOP and no F12.", answers, "warning")
+
+    def careful(self, title: str, go_on: Callable[[], object]) -> None:
+        """Turns to something else, after asking when the machine works: STOP reaches only what is connected."""
+        words = self.going_on()
+        if not words:
+            go_on()
+            return
+        answers = (("Stop it", self._connection.stop), ("Leave it running", lambda: go_on() and None))
+        self._desk.ask(title, f"{words} Afterwards STOP and F12 no longer reach it.", answers, "warning")
 
     def going_on(self) -> str:
         """What would go on, or break off, without the studio, as a sentence; nothing when it may go."""

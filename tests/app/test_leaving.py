@@ -63,6 +63,20 @@ def test_leave_it_running_leaves_the_axis_moving(stage: Stage) -> None:
     assert stage.rig.simulation.state()["axes"]["X"]["moving"]
 
 
+def test_disconnecting_in_mid_move_asks_and_keeps_the_connection(stage: Stage) -> None:
+    running_machine(stage)
+    for name in ("disconnect", "simulator"):
+        machine = stage.controller
+        stage.studio.actions[name].trigger()
+        assert stage.controller is machine
+        question = stage.studio.desk.question
+        assert question is not None and question.isVisible()
+        question.close()
+    stage.studio.actions["disconnect"].trigger()
+    answer(stage, "Leave it running")
+    assert stage.controller is not machine
+
+
 def test_a_machine_at_rest_is_left_without_a_question(stage: Stage) -> None:
     stage.connect("machine", "ssc1")
     stage.until(lambda: stage.controller.last().value("moving.x") == 0)
