@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from functools import partial
 from pathlib import Path
@@ -43,6 +44,8 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
 
 def begin(studio: Studio, file: Path | None, connect: str) -> None:
     """What the command line asked for, once the window is there."""
+    gc.freeze()
+    gc.enable()
     studio.program.tree.setFocus()
     if file is not None:
         studio.files.open_path(file)

@@ -7,10 +7,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from codegen.models import MODELS, Model
 from device import commands, live
@@ -32,6 +29,10 @@ from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Sen
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 from device.wire import Kind as AnswerKind
 from device.wire import Shape, nonces
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = [
     "Badge",

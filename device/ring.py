@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # numpy loads with the first value of a controller, not with the first window
+    import numpy as np
+    from numpy.typing import NDArray
 
 STALE_S = 0.5  # beyond three periods, how much older a value may be before it is shown as stale
 
@@ -16,8 +18,8 @@ class Row:
     """One value per column, each with the time it was read (monotonic seconds); NaN when it is not polled."""
 
     columns: Mapping[str, int]
-    values: NDArray[np.float64]
-    times: NDArray[np.float64]
+    values: Sequence[float] | NDArray[np.float64]
+    times: Sequence[float] | NDArray[np.float64]
     period_s: float = 0.0
 
     def value(self, key: str) -> float:
@@ -39,7 +41,8 @@ class Row:
         return self.value(key) == self.value(key)
 
 
-EMPTY = Row({}, np.empty(0), np.empty(0))
+EMPTY = Row({}, (), ())
+UNREAD = float("nan")
 
 
 class Ring:
@@ -49,10 +52,10 @@ class Ring:
         self.columns = tuple(columns)
         self.period_s = 0.0
         self._places = {name: place for place, name in enumerate(self.columns)}
-        self._values = np.full((size, len(self.columns)), np.nan)
-        self._times = np.full((size, len(self.columns)), np.nan)
         self._size = size
         self._count = 0
+        self._values: NDArray[np.float64]  # (size, columns), made with the first row
+        self._times: NDArray[np.float64]
 
     @property
     def count(self) -> int:
@@ -61,6 +64,10 @@ class Ring:
 
     def write(self, values: Mapping[str, float], at: float, keep: Iterable[str] | None = None) -> None:
         """A new row: the last one with these values put in; columns outside `keep` become NaN."""
+        import numpy as np
+
+        if not self._count:
+            self._values, self._times = self._unread(), self._unread()
         place = self._count % self._size
         row, times = self._values[place], self._times[place]
         if self._count:
@@ -83,19 +90,27 @@ class Ring:
     def last(self) -> Row:
         """The newest row (all NaN before the first)."""
         if not self._count:
-            return Row(self._places, np.full(len(self.columns), np.nan), np.full(len(self.columns), np.nan))
+            unread = (UNREAD,) * len(self.columns)
+            return Row(self._places, unread, unread)
         place = (self._count - 1) % self._size
         return Row(self._places, self._values[place].copy(), self._times[place].copy(), self.period_s)
 
     def tail(self, count: int) -> NDArray[np.float64]:
         """The newest rows, oldest first."""
-        return self._newest(self._values, count)
+        return self._newest(self._values, count) if self._count else self._unread()[:0]
 
     def tail_times(self, count: int) -> NDArray[np.float64]:
         """When each value of `tail` was read."""
-        return self._newest(self._times, count)
+        return self._newest(self._times, count) if self._count else self._unread()[:0]
+
+    def _unread(self) -> NDArray[np.float64]:
+        import numpy as np
+
+        return np.full((self._size, len(self.columns)), np.nan)
 
     def _newest(self, source: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+        import numpy as np
+
         end = self._count
         start = max(end - min(count, self._size - 1), 0)
         return source[np.arange(start, end) % self._size]
