@@ -16,11 +16,13 @@ from device.door import LEAVE
 from device.identify import fence, read_once
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, Stopped, Wait
 from device.transport import LineSettings
-from device.wire import Answer, Kind, Prompts, Proof, Shape, Upload, framed
+from device.wire import Answer, Frame, Kind, Prompts, Proof, Shape, Upload, framed
 
 T = TypeVar("T")
 SETTLE_S = 0.05  # a refusal's way here at least: adapters keep bytes up to 16 ms (twice that), the controller needs 10
+BEHIND_S = 0.02  # a refusal follows the proof on its line at once: adapters may keep it 16 ms, the controller 0.5
 LONGEST_SETTLE_S = 0.5  # over slow networks
+TRIES = 3  # to end a download that went wrong
 MARGIN_S = 0.02  # beyond the way there and back that a read took just before
 FENCE_BYTES = len(framed("xx", [("_TC", Shape(3, 0))])) + 1 + 11  # there and back
 
@@ -116,7 +118,7 @@ class Download:
         self._job, self._model, self._line = job, model, line
         self._nonces, self._clock, self._folder, self._today = nonces, clock, folder, today
         self._phase = "before anything was sent"
-        self._settle_s = SETTLE_S
+        self._settle_s, self._behind_s = SETTLE_S, BEHIND_S
         self.touched = False
         self.unfinished = False
 
@@ -137,8 +139,7 @@ class Download:
                 yield from self._send(paced=False)
                 yield from self._verify()
             except _Garbled:
-                yield Send(LEAVE + b"\r")
-                yield from fence(self._nonces)
+                yield from self._back_to_commands()
                 yield from self._send(paced=True)
                 yield from self._verify()
         except _Garbled as reason:
@@ -171,6 +172,7 @@ class Download:
         if (yield from fence(self._nonces)).kind is Kind.VALUES:
             way = self._clock() - start - FENCE_BYTES * self._line.byte_s
             self._settle_s = min(max(way + MARGIN_S, SETTLE_S), LONGEST_SETTLE_S)
+            self._behind_s = min(max(way, BEHIND_S), LONGEST_SETTLE_S)
 
     def _keep_old(self) -> Steps[Path | None]:
         self._phase = "while the old program was read"
@@ -184,9 +186,7 @@ class Download:
         self._phase = "before the first line"
         total = len(self.lines)
         self.unfinished = True
-        yield Send(b"DL\r", hold=True, watch_for=b"?")
-        settled = yield Wait(self._settle_s + 4 * self._line.byte_s, hold=True, watch_for=b"?")
-        self._reply_where_none_belongs(settled, -1)
+        yield from self._begin_waiting() if paced else self._begin_proved()
         self.touched = True
         for number, line in enumerate(self.lines):
             self._phase = f"at line {number} of {total}"
@@ -198,7 +198,7 @@ class Download:
                 )
             answer = yield Send(line.encode("ascii") + b"\r", hold=True, watch_for=b"?:", stored=True)
             self._reply_where_none_belongs(answer, number)
-            if paced or number == 0:
+            if paced:
                 self._job.show("sending", number + 1, total)
                 pause = (len(line) + 2) * self._line.byte_s
                 pause += self._settle_s if number == 0 else pause + 0.02
@@ -216,12 +216,40 @@ class Download:
             raise _Garbled("the controller's answer was not clear")
         self.unfinished = False
 
+    def _begin_proved(self) -> Steps[None]:
+        """`DL` behind an empty frame: the frame proves that the line came in whole.
+
+        In command mode every command is answered, after DL none is. So silence behind the frame proves download mode;
+        a lost or refused DL shows itself right there, and no line of the program can become a command.
+        """
+        nonce = next(self._nonces)
+        line = f"{framed(nonce, ())};DL\r".encode()
+        answer = yield Send(line, Frame(nonce, ()), self._settle_s + 0.5, hold=True, refusal_s=0.05)
+        if answer.kind is not Kind.VALUES or re.search("[?:]", answer.text):
+            raise _Garbled("the controller did not go into download mode")
+        settled = yield Wait(self._behind_s + 2 * self._line.byte_s, hold=True, watch_for=b"?:")
+        self._reply_where_none_belongs(settled, -1)
+
+    def _begin_waiting(self) -> Steps[None]:
+        """`DL` alone, for a line that swallows characters; a refusal is waited for here and after the first line."""
+        yield Send(b"DL\r", hold=True, watch_for=b"?")
+        settled = yield Wait(self._settle_s + 4 * self._line.byte_s, hold=True, watch_for=b"?")
+        self._reply_where_none_belongs(settled, -1)
+
     def _reply_where_none_belongs(self, answer: Answer, number: int) -> None:
         if answer.kind is Kind.REFUSED:
             if number <= 0:
                 raise _Garbled("the controller did not go into download mode")
             where = f"the controller left download mode at line {number}"
             raise DownloadFailed(f"Download ended {self._phase}: {where} (was it switched off?). {HELP}")
+
+    def _back_to_commands(self) -> Steps[None]:
+        """Out of whatever the first try has left; a line that was held up may open the download only now."""
+        for _ in range(TRIES):
+            yield Send(LEAVE + b"\r")
+            if (yield from fence(self._nonces)).kind is Kind.VALUES:
+                return
+        raise LinkLost("no answer")
 
     def _leave(self) -> Steps[None]:
         yield Send(b"\\", Prompts(1), timeout_s=1.0, hold=True)

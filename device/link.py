@@ -21,7 +21,7 @@ T = TypeVar("T")
 AHEAD = 32  # bytes that may wait in the operating system
 PROMPT_QUIET_S = 0.06  # text without a line end that stands this long may be a question
 SILENCES = 3  # unanswered exchanges in a row that mean "does not answer"
-PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$")  # what follows a typed command on the wire
+PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")  # travels with a command
 ANSWER = Answer(Kind.ACCEPTED)
 
 
@@ -310,7 +310,7 @@ class Link:
             if task.priority is Priority.STOP:
                 self.wire.owe(step.data.count(b"\r"))
         shown = step.data.decode("ascii", "replace").rstrip("\r")
-        self.note(">", PROOF.sub("", shown) if task.source == "user" else shown, task.source)
+        self.note(">", PROOF.sub("", shown) if task.source in ("user", "download") else shown, task.source)
         self._owner.sent(step.data, task.source)
 
     # ------------------------------------------------------------- the steps

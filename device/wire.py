@@ -94,7 +94,7 @@ class Answer:
 
     kind: Kind
     values: tuple[float, ...] = ()
-    text: str = ""
+    text: str = ""  # of values: what came behind their prompt
     certain: bool = True
 
 
@@ -240,7 +240,8 @@ class Wire:
         self._release(start)
         self._drop(len(head) + length)
         self._take_prompt()
-        return Answer(Kind.VALUES, values=tuple(float(group.replace(" ", "")) for group in match.groups()))
+        values = tuple(float(group.replace(" ", "")) for group in match.groups())
+        return Answer(Kind.VALUES, values, text=self._buffer.decode("ascii"))
 
     def _proof(self, expected: Proof) -> Answer | None:
         mark = bytes([OPEN]) + expected.nonce.encode() + bytes([CLOSE]) + b"\r\n"

@@ -12,6 +12,7 @@ from device.api import Badge, DownloadFailed, LinkError, State
 from device.download import Job, difference, objection, program_lines, refusal, write_dated
 from device.transport import TransportLost
 from tests.device.bench import Bench
+from tests.long import is_long
 
 PROGRAM = "\n".join(["#A", *(f"PR {n},{n};SP {1000 + n};NO LINE {n}" for n in range(60)), "EN"])
 PHASES = ("before DL", "first line", "first third", "second third", "last line", "backslash", "verifying")
@@ -185,13 +186,12 @@ def test_files_of_old_programs_are_never_overwritten(tmp_path: Path) -> None:
     assert second.read_text() == "#B\n"
 
 
-@pytest.mark.parametrize("baud", [9600, 19200, 38400])
-def test_a_download_uses_nine_tenths_of_the_line(baud: int) -> None:
-    """From DL to the final prompt, 10 bits a character."""
-    bench = Bench("ssc4", baud=baud).ready()
-    listing = "\n".join(
-        ["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(300)), "EN"]
-    )
+@pytest.mark.parametrize("lines", [60, 120, 500])
+@pytest.mark.parametrize("baud", [9600, 19200])
+def test_a_download_uses_nine_tenths_of_the_line(baud: int, lines: int) -> None:
+    """From DL to the final prompt, 10 bits a character; the lines of 26 characters as technicians write them."""
+    bench = Bench("ssc1", baud=baud).ready()
+    listing = "\n".join(["#A", *(f"PR {1000 + n * 7};SP 20000;BGX;AMX" for n in range(lines - 2)), "EN"])
     job = bench.controller.download(listing)
     bench.run_until(lambda: b"DL\r" in bench.sent)
     start, place = bench.loopback.clock(), bench.sent.index(b"DL\r")
@@ -322,6 +322,34 @@ def test_a_lost_dl_never_runs_the_lines_as_commands() -> None:
     assert "did not go into download mode" in text
     assert b"PR 1000" not in bench.sent
     assert bench.still()
+
+
+DL_LINE = len('MG{^30},"k7",{^31};DL\r')
+
+
+@pytest.mark.parametrize("change", [b"", b"M", *([b"\x00", b"1", b";", b"\r"] if is_long() else [])])
+def test_whatever_happens_to_dl_no_line_of_the_program_is_carried_out(change: bytes) -> None:
+    """Each character of the line with DL is lost or turned into another; the program's first line would move."""
+    for place in range(DL_LINE):
+        bench = Bench("ssc1").ready()
+        bench.ask("SH")
+        receive, seen = bench.simulation.receive, [-1]
+
+        def spoiled(port: int, data: bytes, bench: Bench = bench, place: int = place) -> None:
+            for byte in data:
+                if seen[0] < 0 and b";DL\r" in bench.sent:  # noqa: B023
+                    seen[0] = 0  # noqa: B023
+                hit = seen[0] == place  # noqa: B023
+                seen[0] += seen[0] >= 0  # noqa: B023
+                receive(port, change if hit else bytes([byte]))  # noqa: B023
+
+        bench.simulation.receive = spoiled  # type: ignore[method-assign]
+        job = bench.controller.download("JG 5000;BG X\nEN")
+        bench.run_until(job.future.done, 60.0)
+        assert seen[0] > place
+        assert bench.still(), place
+        assert job.future.result().verified, place
+        assert bench.simulation.unit.state.program == ("JG 5000;BG X", "EN"), place
 
 
 def test_a_controller_switched_off_while_burning_is_no_success() -> None:

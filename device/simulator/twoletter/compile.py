@@ -1,4 +1,4 @@
-"""Compiles program lines once into small callables: each does one command and answers where to go on."""
+"""Compiles program lines to small callables, each when it first runs: it does one command and says where to go on."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from codegen.twoletter.nodes import (
 )
 from codegen.twoletter.parse import parse_line
 from device.simulator.twoletter import memory
+from device.simulator.twoletter.arithmetic import rewritten
 from device.simulator.twoletter.calls import command_op
 from device.simulator.twoletter.state import CommandError, Strand
 
@@ -50,24 +51,28 @@ class Code:
 
 
 def compile_program(lines: tuple[str, ...], unit: Unit) -> Code:
-    """The whole program; labels are resolved by name when a jump is compiled, so they are found first."""
+    """The whole program: labels and places now, each statement when it first runs, so a download ends quickly."""
     code = Code(lines=lines)
-    statements = [parse_line(text).statements for text in lines]
-    pc = 0
-    for number, line in enumerate(statements):
-        code.start_of.append(pc)
-        for statement in line:
+    for number, text in enumerate(lines):
+        code.start_of.append(len(code.ops))
+        for statement in parse_line(text).statements:
             if isinstance(statement, Label):
-                code.labels.setdefault(statement.name, pc)
+                code.labels.setdefault(statement.name, len(code.ops))
             elif takes_time(statement):
                 code.line_of.append(number)
-                pc += 1
-    for line in statements:
-        for statement in line:
-            if takes_time(statement):
-                code.ops.append(compile_statement(statement, len(code.ops) + 1, unit, code, from_port=False))
+                code.ops.append(_when_run(statement, len(code.ops), unit, code))
     code.ops.append(_off_the_end(unit))
     return code
+
+
+def _when_run(statement: Statement, pc: int, unit: Unit, code: Code) -> Op:
+    """Takes the place of an op until it is needed."""
+
+    def op(strand: Strand) -> int:
+        compiled = code.ops[pc] = compile_statement(statement, pc + 1, unit, code, from_port=False)
+        return compiled(strand)
+
+    return op
 
 
 def compile_line(text: str, unit: Unit) -> list[Op]:
@@ -86,6 +91,8 @@ def takes_time(statement: Statement) -> bool:
 
 def compile_statement(statement: Statement, following: int, unit: Unit, code: Code | None, *, from_port: bool) -> Op:
     """One statement as an op that answers `following` or where it jumps to."""
+    if unit.worked_out:
+        statement = rewritten(statement, unit.worked_out)
     if isinstance(statement, Broken | Foreign):
         return _refuse(statement.code)
     if isinstance(statement, Comment) and statement.mark != "NO":

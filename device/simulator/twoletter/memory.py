@@ -74,6 +74,7 @@ def add_line(download: Download, text: str, model: Model) -> None:
     if len(text) > model.columns or count >= model.lines:
         download.error = TOO_LONG
         return
+    parse_line(text)  # what it found is remembered, so that the end of the download is answered at once
     download.lines.append(text)
 
 
