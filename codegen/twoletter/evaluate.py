@@ -60,9 +60,13 @@ Evaluator = Callable[[Names], int]
 Operation = Callable[[int, int], int]
 
 
+def product(left: int, right: int) -> int:
+    exact = left * right
+    return exact >> 16 if exact >= 0 else -(-exact >> 16)
+
+
 def multiply(left: int, right: int) -> int:
-    product = left * right
-    return wrap(product >> 16 if product >= 0 else -(-product >> 16))
+    return wrap(product(left, right))
 
 
 def divide(left: int, right: int) -> int:
@@ -72,11 +76,19 @@ def divide(left: int, right: int) -> int:
     return wrap(quotient if (left < 0) == (right < 0) else -quotient)
 
 
+def limited(value: int) -> int:
+    """The nearest number of six bytes: overflow of a controller that stops at the limit."""
+    return max(LOWEST, min(HIGHEST, value))
+
+
 OPERATIONS: dict[str, Operation] = {
     "+": lambda left, right: wrap(left + right),
     "-": lambda left, right: wrap(left - right),
     "*": multiply,
     "/": divide,
+    "+~": lambda left, right: limited(left + right),  # no source has these: see the simulator's arithmetic.py
+    "-~": lambda left, right: limited(left - right),
+    "*~": lambda left, right: limited(product(left, right)),
     "&": lambda left, right: left & right,
     "|": lambda left, right: left | right,
     "<": lambda left, right: ONE if left < right else 0,

@@ -54,7 +54,12 @@ class Simulation:
         jumpers = [machine.drive == "stepper" for machine in machines]
         self.model = model
         self.motion = Motion(len(model.axes), machines, seed=seed, compiled=compiled)
-        self.uarts = (Uart(baud=baud, handshake=handshake), Uart(handshake=False))
+        profile = profile or Profile()
+        received, waiting = profile.receive_buffer, profile.output_fifo
+        self.uarts = (
+            Uart(baud=baud, handshake=handshake, receive_size=received, output_size=waiting),
+            Uart(handshake=False, receive_size=received, output_size=waiting),
+        )
         self.unit = Unit(model, self.motion, self.uarts, eeprom or Eeprom(), profile, jumpers)
         self.interpreter = Interpreter(self.unit)
 

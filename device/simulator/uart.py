@@ -21,6 +21,7 @@ class Uart:
     baud: int | None = None  # None: unpaced, characters take no time
     handshake: bool = True
     receive_size: int = RECEIVE_BUFFER
+    output_size: int = OUTPUT_FIFO
     line: deque[int] = field(default_factory=deque)  # handed over by the host, not yet clocked in
     buffer: deque[int] = field(default_factory=deque)  # clocked in, not yet taken by the controller
     overruns: int = 0  # characters lost since the controller last looked
@@ -84,7 +85,7 @@ class Uart:
 
     def room(self) -> int:
         """Free places in the output FIFO; negative while more waits than it holds."""
-        return OUTPUT_FIFO - len(self.output)
+        return self.output_size - len(self.output)
 
     def set_stopped(self, stopped: bool, now: int) -> None:
         """XOFF or XON came from the host."""

@@ -36,7 +36,8 @@ def load_parameters(unit: Unit, burned: dict[str, Any]) -> list[bool]:
             state.settings[name] = value
     state.switches = list(burned["switches"])
     state.port_two = list(burned["port_two"])
-    state.outputs = burned["outputs"]
+    if unit.profile.burns_outputs:
+        state.outputs = burned["outputs"]
     state.brushless = bool(burned.get("brushless", False))
     return [bool(on) for on in burned["motors_on"]]
 

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.evaluate import compile_expression, constant
 from codegen.twoletter.nodes import (
     Argument,
@@ -59,7 +58,7 @@ class Call:
 
 def command_op(command: Command, following: int, unit: Unit, code: Code | None, *, from_port: bool) -> Op:
     """The op of a command; what is refused at any time is refused when it runs."""
-    row = COMMANDS.get(command.name)
+    row = unit.rows.get(command.name)
     refusal = _refusal(row, command, unit, from_port)
     if refusal or row is None:
         return refuse(refusal)

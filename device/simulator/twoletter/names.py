@@ -8,6 +8,7 @@ from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.evaluate import EvaluationError
 from codegen.twoletter.fixed import ONE, string_value
 from device.simulator.twoletter import behaviour
+from device.simulator.twoletter.arithmetic import FUNCTIONS
 from device.simulator.twoletter.behaviour import registers
 from device.simulator.twoletter.state import AXES
 
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
 FUNCTION_KEYS = {"F1": 22, "F2": 23, "F3": 24, "F4": 25, "F5": 26}  # terminal keys, dmc-1412-1414.txt l.5204
-UNKNOWN_NAME = 57
 UNKNOWN_OPERAND = 58
 
 
@@ -30,7 +30,7 @@ class SimulatedNames:
         try:
             return self.unit.state.variables[name]
         except KeyError:
-            raise EvaluationError(UNKNOWN_NAME) from None
+            raise EvaluationError(self.unit.profile.undefined_variable_code) from None
 
     def element(self, name: str, index: int) -> int:
         array = self.unit.state.arrays.get(name)
@@ -59,7 +59,7 @@ class SimulatedNames:
             return string_value(chr(FUNCTION_KEYS[name]))
         reads = behaviour.KEYWORDS.get(name)
         if reads is None:
-            raise EvaluationError(UNKNOWN_NAME)
+            raise EvaluationError(self.unit.profile.undefined_variable_code)
         return reads(unit)
 
     def function(self, name: str, argument: int) -> int:
@@ -70,6 +70,8 @@ class SimulatedNames:
             return self._bit(state.outputs, number, self.unit.model.outputs)
         if name == "AN" and 1 <= number <= len(state.analog):
             return state.analog[number - 1]
+        if name in FUNCTIONS:
+            return FUNCTIONS[name](argument)
         raise EvaluationError(6)
 
     def _bit(self, byte: int, number: int, count: int) -> int:

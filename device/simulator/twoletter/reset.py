@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from codegen.twoletter.fixed import ONE
+from codegen.twoletter.fixed import ONE, scaled
 from device.simulator.motion import Register
 from device.simulator.twoletter import burned
 from device.simulator.twoletter.behaviour import registers
@@ -64,8 +64,7 @@ def _load(unit: Unit) -> None:
     state.selected, state.ports[0].silent = before.selected, not before.selected  # %n stays until the next
     state.clock_offset = unit.sample
     registers.load_defaults(state, unit.model)
-    state.settings["LZ"] = unit.profile.leading_zeros_removed * ONE
-    state.settings["EO"] = unit.profile.echo * ONE
+    _load_profile(unit)
     motors_on = [True] * len(unit.model.axes)
     parameters = unit.eeprom.part("parameters")
     if parameters is not None:
@@ -74,6 +73,23 @@ def _load(unit: Unit) -> None:
     unit.set_program(tuple(unit.eeprom.part("program") or ()))
     _start_motion(unit, motors_on)
     unit.open_port_two()
+
+
+def _load_profile(unit: Unit) -> None:
+    """What a master reset sets otherwise than the command table says."""
+    state, profile = unit.state, unit.profile
+    state.settings["LZ"] = profile.leading_zeros_removed * ONE
+    state.settings["EO"] = profile.echo * ONE
+    state.settings["CW1"] = profile.mark
+    state.port_two[0] = profile.port_two_baud
+    for name, change in profile.commands.items():
+        if "default" not in change:
+            continue
+        value = scaled(float(change["default"]))
+        if name in state.registers:
+            state.registers[name] = [value] * len(unit.model.axes)
+        elif name in state.settings:
+            state.settings[name] = value
 
 
 def _start_motion(unit: Unit, motors_on: list[bool]) -> None:

@@ -14,6 +14,7 @@ from device.simulator.eeprom import Eeprom
 from device.simulator.motion import Motion
 from device.simulator.times import TICKS_PER_MS
 from device.simulator.twoletter import reset
+from device.simulator.twoletter.arithmetic import others
 from device.simulator.twoletter.clock import Clock
 from device.simulator.twoletter.compile import Code, Op, compile_line, compile_program
 from device.simulator.twoletter.names import SimulatedNames
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.state import State
 
 
-UNSIGNED = frozenset({"TC", "TS", "TB", "SC", "TI"})  # replies without a sign column (inferred)
+UNSIGNED = frozenset({"TC", "TS", "TB", "SC", "TI"})  # replies without a sign column where status_sign is off
 RETURN = b"\r\n"
 
 
@@ -42,8 +43,10 @@ class Unit:
         profile: Profile | None = None,
         jumpers: Sequence[bool] = (),
     ) -> None:
-        self.model = model
         self.profile = profile or Profile()
+        self.model = model = self.profile.model(model)
+        self.rows = self.profile.rows()
+        self.worked_out = others(self.profile)
         self.clock = Clock(motion)
         self.uarts = uarts
         self.eeprom = eeprom
@@ -114,7 +117,7 @@ class Unit:
     def set_sample_time(self, period: int) -> None:
         """TM: the next sample comes a new period after the last; waits in samples follow."""
         self.motion  # noqa: B018  every sample up to now is taken with the old period
-        self.clock.set_period(period)
+        self.clock.set_period(self.profile.period(period))
         for strand in self.state.strands():
             if strand.wait is not None and strand.wait.sample >= 0:
                 strand.wait.wake = max(self.clock.now, self.clock.tick_of(strand.wait.sample))
@@ -249,7 +252,7 @@ class Unit:
             whole, _, rest = reply.partition(".")
             digits, decimals, hexadecimal = int(whole), int(rest or 0), False
         text = format_number(value, digits, decimals, self.leading_zeros(), hexadecimal)
-        return text.lstrip(" ") if name in UNSIGNED else text
+        return text.lstrip(" ") if name in UNSIGNED and not self.profile.status_sign else text
 
     def _local(self, value: int, form: Format) -> str:
         if form.kind == "S":
@@ -295,6 +298,7 @@ class Unit:
         """A command of a program was refused: #CMDERR, or the thread ends and port 1 is told."""
         state = self.state
         line = self.code.line(pc)
+        code = self.profile.code(code)
         state.error_code, state.error_line = code, line
         main = state.threads[0]
         handled = "CMDERR" in self.code.labels and main.running and not self._in_routine(main, "CMDERR")

@@ -12,7 +12,7 @@ from tests.long import count
 
 LINES = count(3_000, 1_000_000)
 CHUNK = 500
-SLOW = frozenset({"RS", "BN", "BV", "BP"})
+SLOW = frozenset({"RS", "BN", "BV", "BP", "BS"})  # BS turns the motor there and back (dmc-1412-1414.txt l.730)
 # A trippoint typed at the port holds the port until it is over, AI or AM of a jog for ever (dmc-1412-1414.txt l.988).
 NAMES = [name for name, row in COMMANDS.items() if name.isalpha() and name not in SLOW and not row.trippoint]
 ARGUMENTS = [
@@ -42,7 +42,8 @@ ARGUMENTS = [
     " X{$4.2}",
 ]
 OTHERS = ["N=N+1", "A[1]=N", "V1=", "N={F3.1}", "XX", "pr", "=", "DM A[9]", "", "#Q", "%0", "!BG", "N=_TPX*2"]
-RECOVERY = "\x11\x1b\\\r\x1b\\\rCI0,0,0\rHX\rST\rAB\r"
+LEAVE = "\x11\x1b\\\r\x1b\\\r"  # whatever takes characters for something else than commands
+QUIET = "CI0,0,0\rHX\rST\rAB\r"
 
 
 def command(chance: random.Random) -> str:
@@ -53,9 +54,10 @@ def command(chance: random.Random) -> str:
 
 
 def recover(bench: Bench) -> None:
-    """Whatever state it is in, it comes back to the prompt and stands still."""
-    bench.type(RECOVERY, ms=1500)
-    bench.type(RECOVERY, ms=1500)
+    """Whatever state it is in, it comes back to the prompt and stands still; SA and % may have turned it away."""
+    recovery = f"{LEAVE}%{bench.simulation.unit.address}\r{QUIET}"
+    bench.type(recovery, ms=1500)
+    bench.type(recovery, ms=1500)
     assert bench.type("\r", ms=50).endswith(":")
     assert not bench.simulation.unit.running()
     assert not bench.simulation.unit.moving()
