@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import sys
 import threading
@@ -103,9 +104,10 @@ class Server:
         return 2 + int(2 * SLICE_S * uart.baud / CHARACTER_BITS) - len(uart.line)
 
     def use(self, loop: SampleLoop) -> None:
-        """The compiled loop is ready."""
+        """The compiled loop is ready; what was loaded for it lives on, and need not be looked through for garbage."""
         for motion in self.simulation.motions:
             motion.use(loop)
+        gc.freeze()
 
     def facts(self) -> dict[str, Any]:
         """Beside the state: the last characters clocked in (`time.monotonic()`, code), and which loop runs."""

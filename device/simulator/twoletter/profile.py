@@ -227,6 +227,12 @@ class Profile:
             return model
         return dataclasses.replace(model, labels=self.labels, variables=self.variables)
 
+    def feed(self, name: str) -> float:
+        """What FV and FA count in the servo loop against the volts of the defaults."""
+        if name == "FV":
+            return self.velocity_feed_v / float(DEFAULTS["velocity_feed_v"])
+        return self.acceleration_feed_v / float(DEFAULTS["acceleration_feed_v"]) if name == "FA" else 1.0
+
     def period(self, sample_us: int) -> int:
         """Ticks of a sample at a TM."""
         return sample_us * 1024 // self.samples_per_second
