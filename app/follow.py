@@ -18,13 +18,14 @@ from app.session import Session
 from app.tick import Tick, failure_of
 from app.window import Window
 from codegen.twoletter.problems import ERROR_TEXTS
-from device.api import Badge, Kind, NoticeKind, Row, State
+from device.api import Badge, Kind, NoticeKind, Row, State, StopState
 from widgets.display.display import DisplayPanel
 from widgets.display.readings import age_of, fresh
 from widgets.display.threads import thread_words
 from widgets.panel import Panel
 from widgets.parts.units import shown
 from widgets.program.view import ProgramView
+from widgets.terminal.answers import asked_in
 
 if TYPE_CHECKING:
     from device.api import Notice
@@ -49,6 +50,7 @@ class Follow(QObject):
         self._connection, self._session, self._run = connection, session, run
         self._actions, self._window = actions, window
         self._watched: object = None
+        self._stop = StopState.NO_LINK
 
     def look(self) -> None:
         """Brings everything up to date; nothing is touched that has not changed."""
@@ -56,12 +58,23 @@ class Follow(QObject):
         self._actions.show_facts(self.facts())
         self._window.show_stop(controller.kind, controller.stop_state, controller.control)
         self._window.show_title(self._session.title, controller.kind)
-        self._window.prompt.show_prompt(controller.pending_prompt)
+        self._show_question()
         online = controller.kind is not Kind.OFFLINE
         self._window.run_bar.show_badge(controller.program_badge if online else None)
         self._window.status.progress.show_job(self._run.doing, self._run.job)
         self._watch()
         self._status(controller.last())
+
+    def _show_question(self) -> None:
+        """What the program asks; what was asked when STOP was pressed is not answered any more."""
+        controller, box = self._connection.controller, self._window.prompt
+        prompt, listing = controller.pending_prompt, controller.waiting.listing
+        source = listing.text.splitlines() if prompt is not None and listing is not None else []
+        box.show_prompt(prompt, asked_in(source, prompt.lines, prompt.text) if prompt is not None else None)
+        before, self._stop = self._stop, controller.stop_state
+        not_confirmed = self._stop is StopState.NOT_CONFIRMED and before is not self._stop
+        if self._stop is StopState.STOPPING or not_confirmed:
+            box.withdraw()
 
     def facts(self) -> Facts:
         """What is the case right now."""

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.connection import Connection
 from app.tick import Tick, failure_of
+from device.api import StopState
 from widgets.terminal.terminal import TerminalPanel
 
 
@@ -52,8 +53,12 @@ class Talk(QObject):
             controller.release_control()
 
     def answer(self, text: str) -> None:
-        """The answer to a program that waits for one."""
-        self._expect(self._connection.controller.answer(text), "The answer")
+        """The answer to a program that waits for one; never after STOP, where it would be a command."""
+        controller = self._connection.controller
+        if controller.stop_state is StopState.STOPPING or controller.pending_prompt is None:
+            self.said.emit("The answer was not sent: no question waits for it any more.")
+            return
+        self._expect(controller.answer(text), "The answer")
 
     def not_waiting(self) -> None:
         """The person knows that no program waits."""

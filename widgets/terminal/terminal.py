@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from device.api import Kind, NoticeKind
-from widgets.panel import Panel, set_text
+from widgets.panel import Panel, set_text, show_role
 from widgets.parts.look import look
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ STYLES = {
     "poll": ("quiet", "· "),
     "note": ("quiet", "  "),
 }
+WATCHING = "Watch: what only reads is sent, such as TP, MG _TPX or KP ?. For anything else switch to Control (Ctrl+T)."
 
 
 class TerminalPanel(Panel):
@@ -67,7 +68,7 @@ class TerminalPanel(Panel):
         controller = self.controller
         if controller is None:
             return
-        self._allow(why_not(controller))
+        self._allow(why_not(controller), not controller.control)
         if self.traffic.isChecked():
             for entry in controller.traffic(self._seen):
                 self._seen = entry.number
@@ -140,12 +141,15 @@ class TerminalPanel(Panel):
         self.write("typed", text)
         self.command.emit(text)
 
-    def _allow(self, reason: str) -> None:
+    def _allow(self, reason: str, watching: bool = False) -> None:
+        """`watching`: what only reads may be typed; the controller's door decides what that is."""
         self.line.setEnabled(not reason)
         self.send.setEnabled(not reason)
         self.send.setToolTip(reason or "Sends the line (Enter)")
-        set_text(self.why, reason)
-        self.why.setVisible(bool(reason))
+        words = reason or (WATCHING if watching else "")
+        set_text(self.why, words)
+        show_role(self.why, "warning" if reason else "quiet")
+        self.why.setVisible(bool(words))
 
     def _show_traffic(self, entry: Traffic) -> None:
         if entry.source in ("poll", "stop", "download"):
@@ -161,7 +165,6 @@ class TerminalPanel(Panel):
         self.line.setAccessibleName("Command")
         self.line.setPlaceholderText("Two-letter command, for example TP or MG _TPX")
         self.send.setProperty("role", "primary")
-        self.why.setProperty("role", "warning")
         self.why.setWordWrap(True)
         self.log.setMinimumHeight(48)
         foot, column = QHBoxLayout(), QVBoxLayout(self)
@@ -180,6 +183,4 @@ def why_not(controller: Controller) -> str:
         return "Connect a controller or start the simulator first."
     if controller.pending_prompt is not None:
         return "The program waits for an answer: the next line would be taken for it. Use the answer box."
-    if not controller.control:
-        return "Watching only: switch to Control to send commands."
     return ""

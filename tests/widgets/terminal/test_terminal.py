@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.theme import Choice, Theme
-from device.api import Controller, Kind, Prompt, Reply, State
+from device.api import Controller, Prompt, Reply, State
 from tests.rig import Rig
 from widgets.terminal.code_window import CodeWindow
 from widgets.terminal.prompt import PromptBox
@@ -150,10 +150,6 @@ def offline() -> Controller:
     return Controller.offline()
 
 
-def watched() -> Controller:
-    return Rig(Kind.MACHINE).ready().controller
-
-
 def asking() -> Controller:
     rig = Rig(program='IN "Pieces?",N\nEN').ready()
     rig.result(rig.controller.execute(anyway=True))
@@ -161,9 +157,7 @@ def asking() -> Controller:
     return rig.controller
 
 
-@pytest.mark.parametrize(
-    ("situation", "words"), [(offline, "Connect"), (watched, "switch to Control"), (asking, "Use the answer box")]
-)
+@pytest.mark.parametrize(("situation", "words"), [(offline, "Connect"), (asking, "Use the answer box")])
 def test_when_nothing_can_be_typed_it_says_why(
     terminal: TerminalPanel, situation: Callable[[], Controller], words: str
 ) -> None:
