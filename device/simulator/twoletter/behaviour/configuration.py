@@ -100,7 +100,10 @@ def dimension(command: Command, following: int, unit: Unit, code: Code | None) -
         for name, size in wanted:
             if size is None:
                 raise CommandError(55)
-            memory.dimension(unit.state, unit.model, name, size(names) // ONE)
+            count = size(names) // ONE
+            if name in unit.state.arrays and 0 < count <= unit.model.elements:
+                raise CommandError(unit.profile.dimension_again_code)
+            memory.dimension(unit.state, unit.model, name, count)
         return following
 
     return op
@@ -118,7 +121,9 @@ def deallocate(command: Command, following: int, unit: Unit, code: Code | None) 
             if item.name == "*":
                 (state.arrays if item.is_array else state.variables).clear()
             elif item.is_array:
-                state.arrays.pop(item.name, None)  # none there: nothing to free, so that a program can run again
+                missing = state.arrays.pop(item.name, None) is None
+                if missing and unit.profile.deallocate_missing_code:  # else a program with DA can run again
+                    raise CommandError(unit.profile.deallocate_missing_code)
             elif state.variables.pop(item.name, None) is None:
                 raise CommandError(57)
         return following

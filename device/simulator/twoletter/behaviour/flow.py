@@ -111,10 +111,10 @@ def _flags(command: Command, unit: Unit) -> Callable[[], list[bool]]:
 
 def end(command: Command, following: int, unit: Unit, code: Code | None) -> Op:
     """EN: returns from a subroutine, or ends the thread."""
-    flags = _flags(command, unit)
+    flags, first = _flags(command, unit), unit.profile.end_fields.partition(",")[0]
 
     def op(strand: Strand) -> int:
-        restore, interrupt = flags()[:2]
+        restore, interrupt = flags()[:2] if first == "trippoint" else flags()[1::-1]
         assert isinstance(strand, Thread)
         if not strand.stack:
             finish(unit, strand)

@@ -42,7 +42,7 @@ def message(command: Command, following: int, unit: Unit, code: Code | None) -> 
 
     def op(strand: Strand) -> int:
         text = "".join(piece() for piece in pieces) + line_end
-        if isinstance(strand, Port) and strand.number == port:
+        if isinstance(strand, Port) and strand.number == port and not unit.profile.typed_message_marked:
             unit.reply(port, text.encode("latin-1"))
         else:
             unit.unsolicited(port, text)

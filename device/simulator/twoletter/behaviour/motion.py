@@ -66,7 +66,7 @@ def _begin_axis(unit: Unit, axis: int) -> None:
     elif mode == "HM":
         motion.begin_home(axis, home_state(unit, axis))
     elif mode == "FE":
-        motion.begin_edge(axis, home_state(unit, axis))
+        motion.begin_edge(axis, bool(home_state(unit, axis)) == (unit.profile.edge_direction == "table"))
     elif mode == "FI":
         direction = -1 if state.registers["JG"][axis] < 0 else 1
         motion.begin_index(axis, abs(state.last_speed[axis]) / ONE, direction)
@@ -98,7 +98,7 @@ def abort(unit: Unit, strand: Strand, call: Call) -> None:
     """AB: everything at once; AB1 leaves the programs (recall)."""
     _check_flag(call)
     unit.motion.abort_all()
-    if not call.whole(0):
+    if call.value(0) is None or call.whole(0) != unit.profile.abort_keeps_programs:
         unit.halt_all()
 
 

@@ -147,7 +147,7 @@ def upload_array(command: Command, following: int, unit: Unit, code: Code | None
         array, first, last, commas = _range(unit, name, numbers)
         values = [unit.formatted(value, None) for value in array[first : last + 1]]
         text = (",".join(values) if commas else "\r\n".join(values)) + "\r\n"
-        data = text.encode("latin-1") + unit.profile.upload_end
+        data = text.encode("latin-1") + unit.profile.array_upload_end
         if isinstance(strand, Port):
             unit.reply(strand.number, data)
         else:

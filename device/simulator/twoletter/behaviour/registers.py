@@ -213,7 +213,7 @@ def put(unit: Unit, name: str, axis: int, value: int) -> None:
     else:
         unit.state.settings[name] = value
     if entry.register is not None:
-        unit.motion.set(axis, entry.register, value / ONE)
+        unit.motion.set(axis, entry.register, value / ONE * unit.profile.feed(name))
     if entry.apply is not None:
         entry.apply(unit, axis, value)
 
@@ -223,7 +223,7 @@ def put_all(unit: Unit) -> None:
     for name, entry in STORES.items():
         if entry.register is not None:
             for axis, value in enumerate(unit.state.registers[name]):
-                unit.motion.set(axis, entry.register, value / ONE)
+                unit.motion.set(axis, entry.register, value / ONE * unit.profile.feed(name))
         elif name in PHASE and entry.apply is not None:
             if unit.model.commutation:
                 entry.apply(unit, 0, unit.state.registers[name][0])

@@ -21,9 +21,25 @@ def error_code(unit: Unit, strand: Strand, call: Call) -> None:
     if which not in (0, 1):
         raise CommandError(6)
     code = unit.state.error_code
-    text = ERROR_TEXTS.get(code, "")
-    unit.state.error_code = 0
-    unit.answer(strand, f"{code} {text}".rstrip() if which else _three(unit, "TC", code))
+    if unit.profile.error_code_cleared_by_reading:
+        unit.state.error_code = 0
+    unit.answer(strand, _told(unit, code) if which else _three(unit, "TC", code))
+
+
+def _told(unit: Unit, code: int) -> str:
+    """The answer to TC1 (dmc-1412-1414.txt l.1403)."""
+    form = unit.profile.error_text
+    number = f"{code}" if form == "1 text" else f"{code:03d}"
+    dash = "- " if form == "001 - text" else ""
+    return f"{number} {dash}{ERROR_TEXTS.get(code, '')}".rstrip()
+
+
+def last_code(unit: Unit, axis: int) -> int:
+    """_TC in an expression."""
+    code = unit.state.error_code
+    if unit.profile.error_code_cleared_by_operand:
+        unit.state.error_code = 0
+    return code * ONE
 
 
 def stop_code(unit: Unit, strand: Strand, call: Call) -> None:
@@ -44,7 +60,7 @@ def _three(unit: Unit, name: str, value: int) -> str:
 def switches(unit: Unit, axis: int) -> int:
     """TS: the bits of one axis; limits read "not active" in both polarities (inferred)."""
     motion = unit.motion
-    active_high = unit.state.switches[0] == 1
+    active_high = unit.state.switches[0] == 1 and not unit.profile.limits_follow_level
     bits = (
         motion.moving(axis) << 7
         | motion.error_exceeded(axis) << 6
@@ -73,7 +89,7 @@ def status_byte(unit: Unit, axis: int) -> int:
 
 DOES: Final = {"TC": error_code, "SC": stop_code}
 READS: Final = {
-    "TC": lambda unit, axis: unit.state.error_code * ONE,
+    "TC": last_code,
     "SC": lambda unit, axis: unit.motion.stop_code(axis) * ONE,
     "TS": switches,
     "TB": status_byte,
