@@ -63,7 +63,7 @@ def _letters(cursor: Cursor, extra: str) -> Axes | None:
             elif letter in LATER_LETTERS:
                 raise cursor.refuse("later-axis", 90, foreign=True)
             else:
-                raise cursor.refuse("bad-axis", 90)
+                raise cursor.refuse("bad-axis", 28 if letter == "S" else 90)
         end = cursor.end
         cursor.advance()
     return Axes(letters, Span(start, end)) if letters else None
@@ -115,6 +115,8 @@ def _master(cursor: Cursor, row: Row) -> Arguments:
     """One axis (`X`), an auxiliary encoder (`DX`), a commanded position (`CX`) or the vector motion (`S`)."""
     if cursor.kind == END:
         return ()
+    if cursor.at("?"):
+        return (_query(cursor, row),)
     text = cursor.value
     if cursor.kind != NAME:
         raise cursor.refuse("bad-axis", 90)

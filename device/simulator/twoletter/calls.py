@@ -136,7 +136,8 @@ def caller(command: Command, row: Row, unit: Unit) -> Callable[[], Call]:
     named = tuple(AXES.index(letter) for letter in letters if letter in AXES)
     axes = named or (() if "S" in letters else tuple(range(len(unit.model.axes))))
     sequence = "S" in letters
-    getters = [_getter(argument) for argument in places(command)]
+    # what RD names is read at every sample, and some of it (_SH, _NO) only there
+    getters = [] if row.takes is Takes.SOURCES else [_getter(argument) for argument in places(command)]
 
     speed = next((item.value for item in command.arguments if isinstance(item, SegmentSpeed)), None)
     speed_value = None if speed is None else compile_expression(speed)
