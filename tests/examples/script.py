@@ -22,7 +22,7 @@ A file holds several examples. Each begins with `== MODEL l.FIRST-LAST title`; t
     # …                      comment
 
 Expressions know: x y z w (commanded actual error velocity torque stop_code motor_on moving), v (variables), strings,
-arrays, outputs, inputs, out(n), ms (true milliseconds since power-up), t, edges, errors, threads, messages, said(port),
+arrays, outputs, inputs, out(n), ms (true milliseconds since power-up), t, edges, errors, threads, messages, said(port), bench,
 gaps (milliseconds between edges), near(a, b, tolerance).
 """
 
@@ -131,6 +131,7 @@ class Bench:
             **axes,
             **state,
             **self.asked,
+            "bench": self,
             "v": SimpleNamespace(**state["variables"]),
             "out": lambda number: outputs >> (number - 1) & 1,
             "ms": self.seconds() * 1000,

@@ -1,0 +1,247 @@
+"""The fact sheet: what the manuals say of every command, put to the simulator as it would be typed.
+
+`sheet/*.txt` holds one entry a command, typed from the manuals (or from the row of the command facts it names):
+
+    == NAME MODELS           the controllers that have it: ssc, ssc2+ (two axes and more), dmc (both), or one by name
+    from SOURCE…             where the facts below stand: dmc:LINE, ssc:LINE, spec:ROW
+    on MODELS                the facts below are about these of them (`all` again for every one)
+    plant KEY=VALUE…         the machine on which the facts below are tried (a fresh one)
+    fresh                    a fresh controller for what follows
+    takes LINE               column 1: is accepted
+    refuses CODE LINE        column 2: is refused with that error code
+    answers LINE -> REPLY    column 3: `?`, or what the command tells
+    unasked CODE LINE        column 3: there is no such question
+    reads VALUE OPERAND      column 4: the operand reads that (VALUE may be a range LOW..HIGH)
+    unread OPERAND           column 4: there is no such operand (error 58)
+    axes V1 V2 V3 V4         columns 1 to 4 of `x,y,z,w` commands: stored, asked and read axis by axis, 90 for one too many
+    letters                  columns 1 and 2 of commands with axis letters: each letter, 90 for one too many
+    does WHAT                column 5: does what the manual says; steps of `tests/examples/script.py`, indented, follow
+    # …                      comment
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from codegen.models import MODELS, model
+from tests.examples.script import Example, Player
+
+HERE = Path(__file__).parent
+COLUMNS = ("takes", "refuses", "answers", "reads", "does")
+IN_COLUMN = {
+    "takes": "takes",
+    "refuses": "refuses",
+    "answers": "answers",
+    "unasked": "answers",
+    "reads": "reads",
+    "unread": "reads",
+    "does": "does",
+}
+SHORT = {
+    "ssc": ("ssc1", "ssc2", "ssc3", "ssc4"),
+    "ssc2+": ("ssc2", "ssc3", "ssc4"),
+    "dmc": ("dmc1412", "dmc1414"),
+}
+CONTROLLERS = (*SHORT["ssc"], *SHORT["dmc"])
+LETTERS = "XYZW"
+SOURCE = re.compile(r"(dmc|ssc):[1-9]\d*|spec:\S+").fullmatch
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One line of an entry, or a `does` with its steps."""
+
+    verb: str
+    text: str
+    models: frozenset[str]
+    sources: tuple[str, ...]
+    line: int
+    steps: tuple[tuple[int, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Everything the sheet says of one command."""
+
+    name: str
+    models: tuple[str, ...]
+    file: str
+    facts: tuple[Fact, ...]
+
+    def about(self, model_name: str) -> list[Fact]:
+        """The facts that hold on that controller."""
+        return [fact for fact in self.facts if model_name in fact.models]
+
+    def columns(self, model_name: str) -> dict[str, int]:
+        """How many facts each column of the table has there; 0 is a hole."""
+        found = dict.fromkeys(COLUMNS, 0)
+        for fact in self.about(model_name):
+            if fact.verb == "axes":
+                for column in COLUMNS[:4]:
+                    found[column] += 1
+            elif fact.verb == "letters":
+                found["takes"] += 1
+                found["refuses"] += 1
+            elif fact.verb in IN_COLUMN:
+                found[IN_COLUMN[fact.verb]] += 1
+        return found
+
+    def sources(self, model_name: str) -> tuple[str, ...]:
+        """Where they stand."""
+        return tuple(dict.fromkeys(source for fact in self.about(model_name) for source in fact.sources))
+
+
+def models_of(words: str) -> tuple[str, ...]:
+    """`ssc2+ dmc1412` as names of controllers."""
+    found = tuple(name for word in words.split() for name in SHORT.get(word, (word,)))
+    assert set(found) <= set(MODELS), words
+    return found
+
+
+@dataclass
+class Reader:
+    """Reads one file of the sheet."""
+
+    file: str
+    entries: list[Entry] = field(default_factory=list)
+    name: str = ""
+    models: tuple[str, ...] = ()
+    on: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+    facts: list[Fact] = field(default_factory=list)
+
+    def close(self) -> None:
+        """The entry is complete."""
+        if self.name:
+            self.entries.append(Entry(self.name, self.models, self.file, tuple(self.facts)))
+        self.facts = []
+
+    def take(self, number: int, line: str) -> None:
+        """One line that is not a step."""
+        word, _, rest = line.partition(" ")
+        if word == "==":
+            self.close()
+            self.name, _, models = rest.partition(" ")
+            self.models = self.on = models_of(models)
+            self.sources = ()
+        elif word == "from":
+            self.sources = tuple(rest.split())
+            assert all(map(SOURCE, self.sources)), f"{self.file}:{number}: no source: {rest}"
+        elif word == "on":
+            self.on = self.models if rest == "all" else models_of(rest)
+            assert set(self.on) <= set(self.models), f"{self.file}:{number}: {rest}"
+        else:
+            assert word in IN_COLUMN or word in ("axes", "letters", "plant", "fresh"), f"{self.file}:{number}: {line}"
+            assert self.sources, f"{self.file}:{number}: where does it stand?"
+            self.facts.append(Fact(word, rest, frozenset(self.on), self.sources, number))
+
+    def step(self, number: int, line: str) -> None:
+        """One indented line: a step of the last `does`."""
+        last = self.facts.pop()
+        assert last.verb == "does", f"{self.file}:{number}: a step of nothing"
+        self.facts.append(
+            Fact(last.verb, last.text, last.models, last.sources, last.line, (*last.steps, (number, line)))
+        )
+
+
+def read_sheet(path: Path) -> list[Entry]:
+    """Every entry of one file."""
+    reader = Reader(path.name)
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith("  "):
+            reader.step(number, line[2:])
+        elif line.strip() and not line.startswith("#"):
+            reader.take(number, line)
+    reader.close()
+    return reader.entries
+
+
+@cache
+def sheet() -> dict[str, Entry]:
+    """The whole sheet by command."""
+    entries = [entry for path in sorted((HERE / "sheet").glob("*.txt")) for entry in read_sheet(path)]
+    names = [entry.name for entry in entries]
+    assert len(set(names)) == len(names), sorted(name for name in names if names.count(name) > 1)
+    return {entry.name: entry for entry in entries}
+
+
+class Prober(Player):
+    """Tries the facts of one entry on one controller."""
+
+    def __init__(self, entry: Entry, model_name: str) -> None:
+        super().__init__(Example(model_name, entry.name, model_name, (), entry.file))
+        self.entry = entry
+        self.axes = model(model_name).axes
+
+    def probe(self) -> None:
+        """Every fact, in order; an assertion names the line of the sheet."""
+        for fact in self.entry.about(self.example.model):
+            self.place = fact.line
+            if fact.verb == "does":
+                self._does(fact)
+            elif fact.verb in ("plant", "fresh"):
+                self.waiting, self.plants = None, {}
+                if fact.verb == "plant":
+                    self.step("plant", fact.text, [])
+            else:
+                getattr(self, f"do_{fact.verb}")(fact.text)
+
+    def _does(self, fact: Fact) -> None:
+        """A fresh controller does what the steps say."""
+        title = f"{self.entry.name} {fact.text}"
+        Player(Example(self.example.model, " ".join(fact.sources), title, fact.steps, self.entry.file)).play()
+
+    def do_takes(self, rest: str) -> None:
+        """Is accepted."""
+        self.do_port(rest)
+
+    def do_refuses(self, rest: str) -> None:
+        """Is refused."""
+        self.do_refused(rest)
+
+    def do_answers(self, rest: str) -> None:
+        """Answers."""
+        assert " -> " in rest, rest
+        self.do_port(rest)
+
+    def do_unasked(self, rest: str) -> None:
+        """Has no answer."""
+        self.do_refused(rest)
+
+    def value_of(self, operand: str) -> float:
+        """An operand's value, read through MG."""
+        return float(self.bench.answer(f"MG {operand}{{F10.4}}", 1).strip(":\r\n "))
+
+    def do_reads(self, rest: str) -> None:
+        """The operand reads that."""
+        wanted, _, operand = rest.partition(" ")
+        low, _, high = wanted.partition("..")
+        value = self.value_of(operand)
+        self.must(float(low) - 6e-5 <= value <= float(high or low) + 6e-5, f"{operand} reads {value}, not {wanted}")
+
+    def do_unread(self, rest: str) -> None:
+        """There is no such operand."""
+        self.do_refused(f"58 MG {rest}")
+
+    def do_axes(self, rest: str) -> None:
+        """`x,y,z,w`: every axis has its own number; one too many is error 90."""
+        name, given, count = self.entry.name, rest.split(), len(self.axes)
+        self.do_port(f"{name} {','.join(given[:count])}")
+        answer = self.bench.answer(f"{name} {','.join('?' * count)}", 1).strip(":\r\n ")
+        told = [float(part) for part in answer.split(",")]
+        self.must(told == [float(value) for value in given[:count]], f"{name} answers {told}")
+        for letter, value in zip(self.axes, given, strict=False):
+            self.must(self.value_of(f"_{name}{letter}") == float(value), f"_{name}{letter} is not {value}")
+        if count < len(LETTERS):
+            self.do_refused(f"90 {name} {',' * count}{given[0]}")
+
+    def do_letters(self, rest: str) -> None:
+        """Axis letters: each is known, one too many is error 90."""
+        name = self.entry.name
+        for letter in self.axes:
+            self.do_port(f"{name}{letter}")
+        if len(self.axes) < len(LETTERS):
+            self.do_refused(f"90 {name}{LETTERS[len(self.axes)]}")
