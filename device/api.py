@@ -18,7 +18,7 @@ from device.door import Door
 from device.download import Downloaded, DownloadFailed, Job, program_lines
 from device.hands import Io, Memory, Motion
 from device.happenings import Badge, Kind, Notice, NoticeKind, State
-from device.identify import Identity, read_once
+from device.identify import Identity, mismatch, read_once, who
 from device.link import Link, Traffic
 from device.meeting import Events
 from device.own import OwnSimulator
@@ -33,6 +33,8 @@ from device.wire import Shape, nonces
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from codegen.setup import Setup
 
 __all__ = [
     "Badge",
@@ -191,6 +193,16 @@ class Controller:
         if self.model is not None:
             return self.model.axes
         return self.identity.axes if self.identity is not None else ""
+
+    @property
+    def who(self) -> str:
+        """Which controller is connected, in words."""
+        return who(self.identity, self.model)
+
+    def mismatch(self, setup: Setup) -> str:
+        """How it differs from the controller a setup was written for, as one sentence, or nothing."""
+        sure = self.state is State.READY and not self.doubt
+        return mismatch(self.identity if sure else None, self.model, setup)
 
     # ------------------------------------------------------------------- STOP
 

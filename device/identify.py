@@ -5,10 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from codegen.models import MODELS, Model
 from device.tasks import LinkLost, Send, Steps, Wait
 from device.wire import Answer, Frame, Kind, Prompts, Proof, Revision, Shape, framed
+
+if TYPE_CHECKING:
+    from codegen.setup import Setup
 
 LISTEN_S = 0.1
 REVISION = b"\x12\x16"
@@ -32,6 +36,31 @@ def model_of(text: str) -> Model | None:
         if match is not None:
             return MODELS.get(name.format(match.group(1)))
     return None
+
+
+def who(identity: Identity | None, model: Model | None) -> str:
+    """Which controller is connected, in words: what it calls itself, its type, its serial number."""
+    if identity is None:
+        return "a controller that was not asked yet"
+    kind = model.title if model is not None else "of unknown type"
+    number = f"serial number {identity.serial}" if identity.serial else "no serial number"
+    return f"{identity.text or 'a controller without a name'} ({kind}; {number})"
+
+
+def mismatch(identity: Identity | None, model: Model | None, setup: Setup) -> str:
+    """How the connected controller differs from the one a setup was written for, as one sentence, or nothing.
+
+    A serial number counts where the setup states one; a controller without one (0) can not prove that it is the same.
+    """
+    written = f"The setup was written for {setup.limits.title}"
+    wanted = setup.serial_number.strip()
+    if identity is None or model is None or model.name != setup.model:
+        return f"{written}; connected is {who(identity, model)}."
+    if identity.axes and identity.axes != setup.letters:
+        return f"{written}; the controller tells of {len(identity.axes)}: {identity.axes}."
+    if wanted and not (wanted.isdigit() and identity.serial and int(wanted) == identity.serial):
+        return f"{written} with serial number {wanted}; connected is {who(identity, model)}."
+    return ""
 
 
 def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identity]:
