@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QObject, Signal
 
+from codegen.models import MODELS
 from device.api import Controller, Kind
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 
@@ -22,6 +24,7 @@ class World(Protocol):
     """The outside of a simulated controller."""
 
     def stimulus(self, signal: str, value: float | str) -> None: ...
+    def state(self) -> dict[str, Any]: ...
 
 
 @dataclass(frozen=True)
@@ -55,9 +58,9 @@ class Connection(QObject):
         """Closes what was there and connects; whether it answers shows in the controller's state."""
         self.adopt(self._connect(address, line), address)
 
-    def open_simulator(self, model: str) -> None:
-        """A simulated controller of that model."""
-        self.open(f"{SIMULATOR}{model}", LineSettings(baud=None))
+    def open_simulator(self, model: str, line: LineSettings) -> None:
+        """A simulated controller of that model, behind a line as fast as that one."""
+        self.open(f"{SIMULATOR}{model}", line)
 
     def go_offline(self) -> None:
         """Closes the connection; a running program in the controller goes on."""
@@ -81,7 +84,10 @@ class Connection(QObject):
 
 
 class Simulated:
-    """A simulator process of our own, started on the link's thread because that takes a moment."""
+    """A simulator process of our own behind a paced serial line (a socket where there are no pseudo-terminals).
+
+    It is started on the link's thread because that takes a moment.
+    """
 
     def __init__(self, model: str, line: LineSettings) -> None:
         self._model, self._line = model, line
@@ -89,15 +95,31 @@ class Simulated:
         self._closed = False
 
     def open(self) -> Transport:
-        """Starts the process and connects to it."""
+        """Starts the process, also again when it has ended, and connects to it."""
+        if self._process is not None:
+            try:
+                return open_transport(self._process.address, self._line)
+            except OpenFailed:
+                self._process.close()
+        self._process = process = self._start()
+        if self._closed:  # meanwhile
+            process.close()
+            raise OpenFailed("The simulator was closed.")
+        return open_transport(process.address, self._line)
+
+    def _start(self) -> SimulatorProcess:
         from device.simulator.process import SimulatorProcess
 
-        if self._process is None:
-            self._process = SimulatorProcess(self._model)
-        if self._closed:
-            self._process.close()
-            raise OpenFailed("The simulator was closed.")
-        return open_transport(self._process.address, self._line)
+        try:
+            process = SimulatorProcess(self._model, pty=os.name == "posix", baud=self._line.baud)
+        except OSError as reason:
+            raise OpenFailed(f"The simulator did not start ({reason}).") from reason
+        try:
+            process.state()  # told once it serves: on a busy computer the line is there long before somebody answers
+        except OSError as reason:
+            process.close()
+            raise OpenFailed(f"The simulator did not start ({reason}).") from reason
+        return process
 
     def stimulus(self, signal: str, value: float | str) -> None:
         """Something outside the simulated controller changes; ValueError while it is still starting."""
@@ -126,9 +148,12 @@ def connector(programs: Path, idle_s: Callable[[], float], known: Callable[[], d
         if not address.startswith(SIMULATOR):
             more = {"program_folder": programs, "idle_limit_s": idle_s(), "known_models": known()}
             return Opened(Controller.connect(address, line, **more))
-        world = Simulated(address.removeprefix(SIMULATOR), line)
-        kind = Kind.SIMULATOR
-        return Opened(Controller(world.open, kind=kind, line=line, program_folder=programs, own=world), world)
+        name = address.removeprefix(SIMULATOR)
+        world = Simulated(name, line)
+        controller = Controller(
+            world.open, kind=Kind.SIMULATOR, line=line, model=MODELS.get(name), program_folder=programs, own=world
+        )
+        return Opened(controller, world)
 
     return connect
 

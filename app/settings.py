@@ -11,6 +11,8 @@ from typing import Any
 
 import platformdirs
 
+from widgets.connect.rates import RATES
+
 APPLICATION = "Twoletter Studio"
 
 
@@ -46,11 +48,14 @@ ROWS = (
     Row("theme", str, "system", "Colours", "Light, dark, or as the system has it.", ("system", "light", "dark")),
     Row("port", str, "", "Port", "The serial port used last."),
     Row("baud", int, 9600, "Baud rate", "Speed of the serial line; must equal the switches on the controller.",
-        (300, 1200, 4800, 9600, 19200, 38400), was=("baud_rate",)),
+        tuple(RATES), was=("baud_rate",)),
     Row("bits", int, 8, "Data bits", "Bits of a character.", (7, 8)),
     Row("stop_bits", int, 1, "Stop bits", "Stop bits after a character.", (1, 2)),
     Row("parity", str, "none", "Parity", "Check bit of a character.", ("none", "even", "odd")),
     Row("echo", bool, False, "Controller echo", "The controller sends back what it receives."),
+    Row("simulator_baud", int, 19200, "Baud rate of the simulator",
+        "Speed of the serial line to the bundled simulator: as slow as a real one.",
+        tuple(RATES)),
     Row("handshake", str, "both", "Flow control", "How the controller holds the computer back.", ("none", "rts",
         "xon", "both")),
     Row("ports_used", list, [], "Known ports",

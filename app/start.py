@@ -72,10 +72,11 @@ class Start(QObject):
         self.serial.search_again.connect(lambda: self.serial is not None and self.serial.show_ports(self._shown()))
         self.serial.show()
 
-    def use_simulator(self) -> None:
-        """A simulated controller of the model that the program is for."""
+    def use_simulator(self, model: str = "") -> None:
+        """A simulated controller: of the model that the program is for, where none is named."""
         self._search.cancel()
-        self._connection.open_simulator(self._model())
+        line = LineSettings(baud=self._settings.get("simulator_baud"))
+        self._connection.open_simulator(model or self._model(), line)
         self._done()
 
     def open_port(self, device: str) -> None:

@@ -53,7 +53,7 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
         studio.session.open_copy(resources.path(SAMPLE))
     way, _, what = connect.partition(":")
     if way == "simulator":
-        studio.connection.open_simulator(what or studio.model())
+        studio.start.use_simulator(what)
     elif way == "port":
         studio.start.open_port(what)
     elif way == "ask":

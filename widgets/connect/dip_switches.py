@@ -6,17 +6,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from widgets.connect.rates import RATES
 from widgets.parts.look import look
 
-# rate: (switch 2 "1200", switch 3 "9600", switch 4 "19.2K")
-RATES: dict[int, tuple[bool, bool, bool]] = {
-    300: (True, True, False),
-    1200: (True, False, False),
-    4800: (True, False, True),
-    9600: (False, True, False),
-    19200: (False, False, True),
-    38400: (False, True, True),
-}
 NAMES = ("MRST", "1200", "9600", "19.2K", "HSHK")
 
 

@@ -18,7 +18,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.connect.dip_switches import RATES, DipSwitches
+from widgets.connect.dip_switches import DipSwitches
+from widgets.connect.rates import RATES
 
 HANDSHAKES = {"both": "XON/XOFF and RTS/CTS", "rts": "RTS/CTS", "xon": "XON/XOFF", "none": "None"}
 PARITIES = {"none": "None", "even": "Even", "odd": "Odd"}
