@@ -92,6 +92,7 @@ def simulator_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     run.add_argument("--every", type=int, default=1, metavar="N", help="one row of the trace for every N samples")
     run.add_argument("--json", action="store_true")
     run.add_argument("--real-time", action="store_true")
+    run.add_argument("--profile", metavar="PROFILE.toml", help="answers of a real controller, from conform")
     simulate = calls.add_parser("simulate", help="serves a simulated controller in real time")
     controller_option(simulate)
     simulate.add_argument("--plant", metavar="PLANT.toml")
@@ -100,6 +101,9 @@ def simulator_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     simulate.add_argument("--baud", type=int, metavar="N", help="paces the line to N baud")
     simulate.add_argument("--eeprom", metavar="FILE")
     simulate.add_argument("--chain", type=int, metavar="N", help="N controllers in a daisy chain")
+    simulate.add_argument("--port2", metavar="HOST:PORT|pty", help="port 2 as a line of its own")
+    simulate.add_argument("--no-handshake", action="store_true", help="characters that come too fast are lost")
+    simulate.add_argument("--profile", metavar="PROFILE.toml", help="answers of a real controller, from conform")
 
 
 def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:

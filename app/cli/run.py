@@ -14,7 +14,7 @@ from typing import Any
 from app.cli.failure import DONE, NO, Failure
 from app.cli.limits import apply_limits
 from app.cli.report import report
-from app.cli.sources import Loaded, complete, load_any, read_text, target
+from app.cli.sources import Loaded, complete, load_any, read_profile, read_text, target
 from app.cli.stimulus import Happening, read_stimulus
 from app.cli.trace import Columns, Trace, check_ending, write_trace
 from codegen.models import Model
@@ -121,9 +121,11 @@ def entry_of(text: str | None) -> str | int:
     return int(name) if name.isdecimal() else f"#{name}"
 
 
-def loaded_simulation(loaded: Loaded, plants: dict[str, Plant] | None, entry: str | None) -> Simulation:
+def loaded_simulation(
+    loaded: Loaded, plants: dict[str, Plant] | None, entry: str | None, profile: str | None = None
+) -> Simulation:
     """A simulator with the program in it, started."""
-    simulation = Simulation(loaded.model, plants=plants)
+    simulation = Simulation(loaded.model, plants=plants, profile=read_profile(profile))
     apply_limits(simulation, loaded.setup)
     try:
         simulation.load_program(loaded.text)
@@ -162,7 +164,7 @@ def perform(
     loaded: Loaded, options: argparse.Namespace, happenings: list[Happening], out: Callable[[str], None] | None
 ) -> Outcome:
     """Runs what was loaded."""
-    simulation = loaded_simulation(loaded, read_plants(options.plant), options.entry)
+    simulation = loaded_simulation(loaded, read_plants(options.plant), options.entry, options.profile)
     trace = Trace(simulation, loaded.model.threads, loaded.model.axes, options.every) if options.trace else None
     pace = real_time(simulation, out or (lambda _: None)) if options.real_time else None
     if trace:

@@ -9,25 +9,25 @@ from pathlib import Path
 
 from app.cli.failure import DONE, Failure
 from app.cli.run import read_plants
-from app.cli.sources import DEFAULT_MODEL, said_of
+from app.cli.sources import DEFAULT_MODEL, read_profile, said_of
 from codegen.models import model
 from device.simulator.eeprom import Eeprom, EepromUnreadable, read_eeproms
-from device.simulator.lines import open_line
+from device.simulator.lines import open_line, open_second
 from device.simulator.server import MOST_IN_CHAIN, maker, serve
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1", "")
 ANY_PORT = "127.0.0.1:0"
 
 
-def tcp_address(text: str | None) -> str:
+def tcp_address(text: str | None, option: str = "--tcp") -> str:
     """HOST:PORT on this computer; other hosts are refused, the simulator has no lock on its door."""
     if text is None:
         return ANY_PORT
     host, colon, port = text.rpartition(":")
     if not colon or not port.isdecimal() or int(port) > 65535:
-        raise Failure(f"--tcp {text}: needs HOST:PORT, for example {ANY_PORT}")
+        raise Failure(f"{option} {text}: needs HOST:PORT, for example {ANY_PORT}")
     if host.strip("[]") not in LOOPBACK:
-        raise Failure(f"--tcp {text}: a simulated controller is served on this computer only, use 127.0.0.1:{port}")
+        raise Failure(f"{option} {text}: a simulated controller is served on this computer only, use 127.0.0.1:{port}")
     return f"127.0.0.1:{port}" if host in ("", "localhost") else text
 
 
@@ -59,12 +59,23 @@ def simulate(options: argparse.Namespace) -> int:
         raise Failure("--baud must be greater than 0")
     eeproms = eeproms_of(options.eeprom, options.chain or 1)
     plants = read_plants(options.plant)
+    profile = read_profile(options.profile)
     tcp = None if options.pty else tcp_address(options.tcp)
+    port2 = options.port2 if options.port2 in (None, "pty") else tcp_address(options.port2, "--port2")
     end_when_interrupted()
     try:
         line = open_line(pty=options.pty, tcp=tcp)
+        second = open_second(port2) if port2 else None
     except OSError as problem:
         raise Failure(f"can not listen on {tcp or 'a pseudo-terminal'}: {problem.strerror}") from problem
-    make = maker(model(name), plants, eeproms, chain=options.chain is not None, baud=options.baud)
-    serve(make, line)
+    make = maker(
+        model(name),
+        plants,
+        eeproms,
+        chain=options.chain is not None,
+        baud=options.baud,
+        handshake=not options.no_handshake,
+        profile=profile,
+    )
+    serve(make, line, second=second)
     return DONE

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app.cli.failure import Failure
 from codegen.document import Document
@@ -13,6 +14,9 @@ from codegen.generate import Listing, generate
 from codegen.models import MODELS, Model, model
 from codegen.read import cannot
 from codegen.setup import Setup
+
+if TYPE_CHECKING:
+    from device.simulator.twoletter.profile import Profile
 
 DEFAULT_MODEL = "ssc4"
 PRECIOUS = (".tlp", ".tls")
@@ -123,6 +127,20 @@ def read_setup(text: str | None) -> Setup | None:
         raise said_of(path, problem) from problem
     except OSError as problem:
         raise Failure(f"{path}: {sentence(problem)}") from problem
+
+
+def read_profile(text: str | None) -> Profile | None:
+    """What a real controller answered, where it is given."""
+    if text is None:
+        return None
+    from device.simulator.twoletter.profile_file import ProfileUnreadable, load_profile
+
+    path = Path(text)
+    readable(path)
+    try:
+        return load_profile(path)
+    except ProfileUnreadable as problem:
+        raise said_of(path, problem) from problem
 
 
 def errors_of(listing: Listing) -> list[str]:

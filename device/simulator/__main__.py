@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING
 
 from codegen.models import MODELS, Model
 from device.simulator.eeprom import EepromUnreadable, read_eeproms
-from device.simulator.lines import open_line
+from device.simulator.lines import open_line, open_second
 from device.simulator.server import MOST_IN_CHAIN, maker, serve
 
 if TYPE_CHECKING:
     from device.simulator.plant import Plant
     from device.simulator.server import Served
+    from device.simulator.twoletter.profile import Profile
 
 
 class Unusable(Exception):
@@ -35,6 +36,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-handshake", action="store_true", help="characters that come too fast are lost (error 5)")
     parser.add_argument("--eeprom", type=Path, metavar="FILE", help="where burned data is kept")
     parser.add_argument("--chain", type=int, metavar="N", help="N controllers in a daisy chain")
+    parser.add_argument("--port2", metavar="HOST:PORT|pty", help="port 2 as a line of its own")
+    parser.add_argument("--profile", type=Path, metavar="PROFILE.toml", help="answers of a real controller")
     parser.add_argument("--seed", type=int, default=0, help="of the encoder noise")
     parser.add_argument("--control", action="store_true", help="take signal,value and state lines from standard input")
 
@@ -60,8 +63,27 @@ def maker_of(options: argparse.Namespace, model: Model) -> Callable[[], Served]:
     except EepromUnreadable as reason:
         raise Unusable(str(reason)) from reason
 
-    settings = {"baud": options.baud, "seed": options.seed, "handshake": not options.no_handshake}
-    return maker(model, plants, eeproms, chain=options.chain is not None, **settings)
+    return maker(
+        model,
+        plants,
+        eeproms,
+        chain=options.chain is not None,
+        baud=options.baud,
+        seed=options.seed,
+        handshake=not options.no_handshake,
+        profile=_profile(options.profile),
+    )
+
+
+def _profile(path: Path | None) -> Profile | None:
+    if path is None:
+        return None
+    from device.simulator.twoletter.profile_file import ProfileUnreadable, load_profile
+
+    try:
+        return load_profile(path)
+    except ProfileUnreadable as reason:
+        raise Unusable(str(reason)) from reason
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -79,10 +101,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     try:
         line = open_line(pty=options.pty, tcp=options.tcp)
-    except OSError as reason:
-        print(f"twoletter: can not listen ({reason.strerror or reason})", file=sys.stderr)
+        second = open_second(options.port2) if options.port2 else None
+    except (OSError, ValueError) as reason:
+        print(f"twoletter: can not listen ({getattr(reason, 'strerror', None) or reason})", file=sys.stderr)
         return 2
-    serve(make, line, control=options.control)
+    serve(make, line, second=second, control=options.control)
     return 0
 
 

@@ -14,6 +14,7 @@ from device.simulator.server import MOST_IN_CHAIN
 from device.simulator.simulation import Simulation
 from device.simulator.times import TICKS_PER_MS
 from device.simulator.twoletter import burned
+from device.simulator.twoletter.profile import Profile
 from device.simulator.uart import Uart
 
 PORT_TWO_BAUD: Final = 9600
@@ -78,13 +79,20 @@ class Chain:
         """The motion of all."""
         return tuple(simulation.motion for simulation in self.units)
 
+    def line(self, port: int) -> Uart:
+        """Port 1 of the first one or port 2 of the last one: the ends of the chain."""
+        return self._end(port).line(port)
+
     def receive(self, port: int, data: bytes) -> None:
-        """Characters handed to a port of the first one."""
-        self.units[0].receive(port, data)
+        """Characters handed to an end of the chain."""
+        self._end(port).receive(port, data)
 
     def transmit(self, port: int) -> bytes:
-        """Characters that have left a port of the first one; its port 2 is the chain's."""
-        return self.units[0].transmit(port) if port == 1 else b""
+        """Characters that have left an end of the chain."""
+        return self._end(port).transmit(port)
+
+    def _end(self, port: int) -> Simulation:
+        return self.units[0 if port == 1 else -1]
 
     # ----------------------------------------------------------- outside world
 
@@ -134,11 +142,12 @@ def make_chain(
     seed: int = 0,
     compiled: bool | None = None,
     handshake: bool = True,
+    profile: Profile | None = None,
 ) -> Chain:
     """A chain of the same controllers with the same machines."""
     return Chain(
         [
-            Simulation(model, plants, eeprom, baud=baud, seed=seed + place, compiled=compiled, handshake=handshake)
+            Simulation(model, plants, eeprom, baud, seed + place, compiled, handshake, profile)
             for place, eeprom in enumerate(eeproms)
         ]
     )

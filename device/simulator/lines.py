@@ -1,18 +1,23 @@
-"""The host's end of a served controller's port 1: a TCP socket or a pseudo-terminal."""
+"""The host's end of a served controller's ports: TCP sockets or pseudo-terminals."""
 
 from __future__ import annotations
 
 import select
 import socket
-from typing import Protocol
+import time
+from collections.abc import Sequence
+from typing import Protocol, TypeAlias
+
+Watched: TypeAlias = "socket.socket | int"
 
 
 class Line(Protocol):
-    """The host's end of port 1."""
+    """The host's end of one port."""
 
     address: str
 
-    def wait(self, seconds: float, *, want: bool) -> None: ...
+    def watched(self, *, want: bool) -> list[Watched]: ...
+    def arrived(self, readable: Sequence[Watched]) -> None: ...
     def read(self, most: int) -> bytes: ...
     def write(self, data: bytes) -> bool: ...
     def close(self) -> None: ...
@@ -30,16 +35,14 @@ class TcpLine:
         name = self._listener.getsockname()
         self.address = f"{name[0]}:{name[1]}"
 
-    def wait(self, seconds: float, *, want: bool) -> None:
-        """Until a client has something to say (when it is wanted), or the time is over."""
-        watched = [self._listener]
-        if want and self._client is not None:
-            watched.append(self._client)
-        readable, _, _ = select.select(watched, [], [], max(0.0, seconds))
-        if self._listener in readable:
-            self._accept()
+    def watched(self, *, want: bool) -> list[Watched]:
+        """A new client may come at any time; what the present one says only when it is wanted."""
+        return [self._listener, self._client] if want and self._client is not None else [self._listener]
 
-    def _accept(self) -> None:
+    def arrived(self, readable: Sequence[Watched]) -> None:
+        """Lets in who knocks."""
+        if self._listener not in readable:
+            return
         try:
             client, _ = self._listener.accept()
         except OSError:  # it has gone again
@@ -87,6 +90,17 @@ class TcpLine:
         self._listener.close()
 
 
+def wait(lines: Sequence[tuple[Line, bool]], seconds: float) -> None:
+    """Until one of the lines that are wanted has something to say, somebody new knocks, or the time is over."""
+    watched = [each for line, want in lines for each in line.watched(want=want)]
+    if not watched:
+        time.sleep(max(0.0, seconds))
+        return
+    readable, _, _ = select.select(watched, [], [], max(0.0, seconds))
+    for line, _ in lines:
+        line.arrived(readable)
+
+
 def open_line(*, pty: bool, tcp: str | None) -> Line:
     """The pseudo-terminal (not on Windows) or the socket."""
     if pty:
@@ -94,3 +108,8 @@ def open_line(*, pty: bool, tcp: str | None) -> Line:
 
         return TerminalLine()
     return TcpLine(tcp or "127.0.0.1:0")
+
+
+def open_second(place: str) -> Line:
+    """The line of port 2: `pty`, or HOST:PORT."""
+    return open_line(pty=place == "pty", tcp=place)

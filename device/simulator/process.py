@@ -34,6 +34,8 @@ class SimulatorProcess:
         tcp: str = "127.0.0.1:0",
         handshake: bool = True,
         chain: int | None = None,
+        port2: str | None = None,
+        profile: Path | None = None,
     ) -> None:
         command = [sys.executable, "-m", "device.simulator", "--control", "--controller", model]
         command += ["--pty"] if pty else ["--tcp", tcp]
@@ -42,6 +44,8 @@ class SimulatorProcess:
         command += ["--eeprom", str(eeprom)] if eeprom else []
         command += ["--chain", str(chain)] if chain else []
         command += [] if handshake else ["--no-handshake"]
+        command += ["--port2", port2] if port2 else []
+        command += ["--profile", str(profile)] if profile else []
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,
@@ -50,7 +54,8 @@ class SimulatorProcess:
             env=_environment(),
             **_own_group(),
         )
-        self.address = self._address()
+        self.address = self._address("listening on ")
+        self.address2 = self._address("port 2 on ") if port2 else ""
 
     @property
     def pid(self) -> int:
@@ -85,10 +90,10 @@ class SimulatorProcess:
     ) -> None:
         self.close()
 
-    def _address(self) -> str:
+    def _address(self, announced: str) -> str:
         assert self._process.stdout is not None
         first = self._process.stdout.readline().strip()
-        place = first.removeprefix("listening on ")
+        place = first.removeprefix(announced)
         if not first or place == first:
             self.close()
             raise SimulatorFailed("the simulator did not start")

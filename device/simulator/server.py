@@ -1,4 +1,4 @@
-"""Serves a simulated controller in real time: its port 1 on a TCP socket or a pseudo-terminal."""
+"""Serves a simulated controller in real time: its ports on TCP sockets or pseudo-terminals."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final, Protocol, TextIO
 
+from device.simulator.lines import wait
 from device.simulator.times import CHARACTER_BITS, TICKS
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from device.simulator.loops import SampleLoop
     from device.simulator.motion import Motion
     from device.simulator.plant import Plant
+    from device.simulator.twoletter.profile import Profile
     from device.simulator.uart import Uart
 
 SLICE_S: Final = 0.005
@@ -35,9 +37,8 @@ class Served(Protocol):
     @property
     def ticks(self) -> int: ...
     @property
-    def port(self) -> Uart: ...
-    @property
     def motions(self) -> Sequence[Motion]: ...
+    def line(self, port: int) -> Uart: ...
     def advance(self, ticks: int) -> None: ...
     def rest(self, records: int) -> None: ...
     def receive(self, port: int, data: bytes) -> None: ...
@@ -54,9 +55,11 @@ def tell_tick(simulation: Served, began: float, first: int, now: float) -> int:
 class Server:
     """Keeps virtual time on real time by absolute deadlines, and carries bytes and control lines."""
 
-    def __init__(self, simulation: Served, line: Line, control: ControlLines | None = None) -> None:
+    def __init__(
+        self, simulation: Served, line: Line, control: ControlLines | None = None, second: Line | None = None
+    ) -> None:
         self.simulation = simulation
-        self.line = line
+        self.lines = {1: line} if second is None else {1: line, 2: second}
         self.control = control
         self._began = time.monotonic()
         self._first = simulation.ticks
@@ -66,16 +69,18 @@ class Server:
         """Until the control lines end; for ever without them."""
         while self.control is None or not self.control.ended:
             self.step()
-        self.line.close()
+        for line in self.lines.values():
+            line.close()
 
     def step(self) -> None:
         """One slice: waits for bytes up to its deadline, then brings the simulation up to now."""
-        most = self._most()
-        self.line.wait(self._deadline() - time.monotonic(), want=most > 0)
+        most = {port: self._most(self.simulation.line(port)) for port in self.lines}
+        wait([(line, most[port] > 0) for port, line in self.lines.items()], self._deadline() - time.monotonic())
         self._catch_up()
-        data = self.line.read(most) if most > 0 else b""
-        if data:
-            self.simulation.receive(1, data)
+        for port, line in self.lines.items():
+            data = line.read(most[port]) if most[port] > 0 else b""
+            if data:
+                self.simulation.receive(port, data)
         if self.control is not None:
             self.control.carry_out(self.simulation, self.facts)
         self._send()
@@ -94,9 +99,8 @@ class Server:
             self.simulation.advance(due)
             self.simulation.rest(RECORDS_KEPT)
 
-    def _most(self) -> int:
+    def _most(self, uart: Uart) -> int:
         """Characters the line can take now: two slices' worth, so that what the host still queues stays its own."""
-        uart = self.simulation.port
         if not uart.clear_to_send:
             return 0
         if uart.baud is None:
@@ -111,17 +115,18 @@ class Server:
 
     def facts(self) -> dict[str, Any]:
         """Beside the state: the last characters clocked in (`time.monotonic()`, code), and which loop runs."""
-        history = self.simulation.port.history
+        history = self.simulation.line(1).history
         return {
             "received": [[self._began + (tick - self._first) / TICKS, byte] for tick, byte in history],
             "compiled": all(motion.compiled for motion in self.simulation.motions),
         }
 
     def _send(self) -> None:
-        uart = self.simulation.port
-        taken = self.line.write(self.simulation.transmit(1))
-        if taken != uart.host_ready:
-            uart.set_host_ready(taken, self.simulation.ticks)
+        for port, line in self.lines.items():
+            uart = self.simulation.line(port)
+            taken = line.write(self.simulation.transmit(port))
+            if taken != uart.host_ready:
+                uart.set_host_ready(taken, self.simulation.ticks)
 
 
 class ControlLines:
@@ -164,6 +169,7 @@ def maker(
     baud: int | None = None,
     seed: int = 0,
     handshake: bool = True,
+    profile: Profile | None = None,
 ) -> Callable[[], Served]:
     """Makes one controller, or a chain of as many as there are EEPROMs, on the plain loop; loads them only then."""
 
@@ -171,22 +177,28 @@ def maker(
         if chain:
             from device.simulator.chain import make_chain
 
-            return make_chain(model, plants, eeproms, baud=baud, seed=seed, compiled=False, handshake=handshake)
+            return make_chain(
+                model, plants, eeproms, baud=baud, seed=seed, compiled=False, handshake=handshake, profile=profile
+            )
         from device.simulator.simulation import Simulation
 
-        return Simulation(model, plants, eeproms[0], baud=baud, seed=seed, compiled=False, handshake=handshake)
+        return Simulation(
+            model, plants, eeproms[0], baud=baud, seed=seed, compiled=False, handshake=handshake, profile=profile
+        )
 
     return make
 
 
-def serve(make: Callable[[], Served], line: Line, *, control: bool = False) -> None:
-    """Announces the line, makes what is served, and serves it until interrupted or until standard input ends."""
+def serve(make: Callable[[], Served], line: Line, *, second: Line | None = None, control: bool = False) -> None:
+    """Announces the lines, makes what is served, and serves it until interrupted or until standard input ends."""
     print(f"listening on {line.address}", flush=True)
+    if second is not None:
+        print(f"port 2 on {second.address}", flush=True)
     lines = ControlLines(sys.stdin, sys.stdout) if control else None
     try:
         from device.simulator.loops import Loading  # heavy, like what `make` loads: the line is announced before
 
-        server = Server(make(), line, lines)
+        server = Server(make(), line, lines, second)
         loading = Loading(server.use)
         loading.begin()
         try:
@@ -194,4 +206,6 @@ def serve(make: Callable[[], Served], line: Line, *, control: bool = False) -> N
         finally:
             loading.end()
     except KeyboardInterrupt:
-        line.close()
+        for each in (line, second):
+            if each is not None:
+                each.close()

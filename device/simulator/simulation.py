@@ -57,9 +57,10 @@ class Simulation:
         profile = profile or Profile()
         received, waiting = profile.receive_buffer, profile.output_fifo
         self.uarts = (
-            Uart(baud=baud, handshake=handshake, receive_size=received, output_size=waiting),
+            Uart(baud=baud, handshake=handshake, receive_size=received, output_size=waiting, xon_xoff=True),
             Uart(handshake=False, receive_size=received, output_size=waiting),
         )
+        self.port.tells_xoff = profile.sends_xoff
         self.unit = Unit(model, self.motion, self.uarts, eeprom or Eeprom(), profile, jumpers)
         self.interpreter = Interpreter(self.unit)
 
@@ -99,6 +100,10 @@ class Simulation:
     def port(self) -> Uart:
         """Port 1: the host's line."""
         return self.uarts[0]
+
+    def line(self, port: int) -> Uart:
+        """A port's end of its line."""
+        return self.uarts[port - 1]
 
     @property
     def motions(self) -> tuple[Motion]:

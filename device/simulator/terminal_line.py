@@ -1,9 +1,13 @@
-"""Port 1 on a pseudo-terminal (not on Windows): any terminal program can open it as a serial device."""
+"""A port on a pseudo-terminal (not on Windows): any terminal program can open it as a serial device."""
 
 from __future__ import annotations
 
 import os
-import select
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from device.simulator.lines import Watched
 
 
 class TerminalLine:
@@ -19,10 +23,12 @@ class TerminalLine:
         self._pending = bytearray()
         self.address = os.ttyname(self._other)
 
-    def wait(self, seconds: float, *, want: bool) -> None:
-        """Until there are characters (when they are wanted), or the time is over."""
-        watched = [self._own] if want else []
-        select.select(watched, [], [], max(0.0, seconds))
+    def watched(self, *, want: bool) -> list[Watched]:
+        """What can be waited for."""
+        return [self._own] if want else []
+
+    def arrived(self, readable: Sequence[Watched]) -> None:
+        """Nobody has to be let in."""
 
     def read(self, most: int) -> bytes:
         try:

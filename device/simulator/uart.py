@@ -12,6 +12,7 @@ NEVER: Final = 1 << 62
 OUTPUT_FIFO: Final = 128  # characters, dmc-1412-1414.txt l.1333
 RECEIVE_BUFFER: Final = 256  # characters; no manual says (inferred)
 HOLD_MARGIN: Final = 16  # free places at which the host is told to wait
+XON, CONTROL_R, XOFF = 0x11, 0x12, 0x13
 
 
 @dataclass(slots=True)
@@ -32,7 +33,11 @@ class Uart:
     output_free: int = 0
     sent: bytearray = field(default_factory=bytearray)
     host_ready: bool = True  # RTS: the host takes characters
+    xon_xoff: bool = False  # the host may hold output by XOFF
+    tells_xoff: bool = False  # the host is held by XOFF, too
+    told_xoff: bool = False
     stopped: bool = False  # the host sent XOFF
+    last: int = 0  # the character before: ^R makes a command of XOFF
     history: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # tick, character clocked in
 
     passing: bool = False  # what comes in is also for the next controller of a daisy chain
@@ -68,6 +73,8 @@ class Uart:
         if not self.buffer:
             return None
         byte = self.buffer.popleft()
+        if self.told_xoff and self.clear_to_send:
+            self._tell(XON, now)
         if self.incoming_end is None and self.line:
             self._start_incoming(now)
         return byte
@@ -87,11 +94,6 @@ class Uart:
         """Free places in the output FIFO; negative while more waits than it holds."""
         return self.output_size - len(self.output)
 
-    def set_stopped(self, stopped: bool, now: int) -> None:
-        """XOFF or XON came from the host."""
-        self.stopped = stopped
-        self._start_outgoing(now)
-
     def set_baud(self, baud: int | None, now: int) -> None:
         """Changes the rate; characters on their way start again."""
         self.baud = baud
@@ -105,7 +107,7 @@ class Uart:
         self.buffer.clear()
         self.output.clear()
         self.outgoing_end = None
-        self.stopped = False
+        self.stopped = self.told_xoff = False
 
     # -------------------------------------------------------------------- time
 
@@ -143,13 +145,29 @@ class Uart:
         self.history.append((-(-self.line_free // (self.baud or 1)), byte))
         if self.passing:
             self.passed.append(byte)
-        if len(self.buffer) < self.receive_size:
-            self.buffer.append(byte)
-        else:
-            self.overruns += 1
+        self._received(byte, -(-self.line_free // (self.baud or 1)))
         self.incoming_end = None
         if self.line and self.clear_to_send:
             self.incoming_end = self.line_free + self._character()
+
+    def _received(self, byte: int, now: int) -> None:
+        """XOFF and XON work at once, whatever the interpreter does; an XON that ends nothing may mean another thing."""
+        before, self.last = self.last, byte
+        if self.xon_xoff and before != CONTROL_R and (byte == XOFF or (byte == XON and self.stopped)):
+            self.stopped = byte == XOFF
+            self._start_outgoing(now)
+        elif len(self.buffer) < self.receive_size:
+            self.buffer.append(byte)
+            if self.tells_xoff and not self.told_xoff and len(self.buffer) >= self.receive_size - HOLD_MARGIN:
+                self._tell(XOFF, now)
+        else:
+            self.overruns += 1
+
+    def _tell(self, character: int, now: int) -> None:
+        """XOFF or XON to the host, ahead of everything that waits."""
+        self.told_xoff = character == XOFF
+        self.output.insert(0 if self.outgoing_end is None else 1, character)
+        self._start_outgoing(now)
 
     def _start_outgoing(self, now: int) -> None:
         if self.outgoing_end is None and self.output and self.host_ready and not self.stopped:

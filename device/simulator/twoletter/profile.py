@@ -82,6 +82,7 @@ class Profile:
     receive_buffer: int = fact(
         256, "received characters not yet looked at", "inferred", unit="characters", low=32, high=4096, unseen=FLOOD
     )
+    sends_xoff: bool = fact(False, "the controller holds the host by XOFF, too", "inferred", unseen=FLOOD)
 
     # --------------------------------------------------------------- errors
     error_code_cleared_by_reading: bool = fact(True, "TC sets the error code to 0", "recall", rows=("TC",))

@@ -13,7 +13,7 @@ from device.simulator.twoletter.state import CommandError, Port, Wait
 if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
-ENTER, BACKSPACE, XON, CONTROL_R, XOFF, CONTROL_V, RUBOUT = 0x0D, 0x08, 0x11, 0x12, 0x13, 0x16, 0x7F
+ENTER, BACKSPACE, CONTROL_R, CONTROL_S, CONTROL_V, RUBOUT = 0x0D, 0x08, 0x12, 0x13, 0x16, 0x7F
 END_OF_DATA: Final = frozenset(b"\\\x1a\x11\x04")  # dmc-1412-1414.txt l.3408
 ACCEPTED: Final = b":"
 REFUSED: Final = b"?"
@@ -37,7 +37,7 @@ def take_characters(unit: Unit, port: Port) -> None:
 
 def _character(unit: Unit, port: Port, byte: int) -> None:
     if echoes(unit, port):
-        unit.reply(port.number, b"\r\n" if byte == ENTER else bytes((byte,)))
+        unit.reply(port.number, _echoed_return(unit) if byte == ENTER else bytes((byte,)))
     if port.mode == "edit":
         editor.key(unit, port, byte)
     elif port.mode in ("download", "array"):
@@ -48,7 +48,7 @@ def _character(unit: Unit, port: Port, byte: int) -> None:
         port.control = False
         if byte == CONTROL_V:
             unit.reply(port.number, unit.revision().encode("latin-1") + b"\r\n" + ACCEPTED)
-        elif byte == XOFF and spoken_to(unit, port):
+        elif byte == CONTROL_S and spoken_to(unit, port):
             unit.master_reset()
     else:
         _line_character(unit, port, byte)
@@ -61,14 +61,16 @@ def echoes(unit: Unit, port: Port) -> bool:
     return unit.state.port_two[3] == 1 and unit.state.port_two[2] == 0
 
 
+def _echoed_return(unit: Unit) -> bytes:
+    return b"\r\n" if unit.profile.echo_return == "CR LF" else b"\r"
+
+
 # ------------------------------------------------------------- command lines
 
 
 def _line_character(unit: Unit, port: Port, byte: int) -> None:
     if byte == CONTROL_R:
         port.control = True
-    elif byte in (XON, XOFF):
-        unit.uarts[port.number - 1].set_stopped(byte == XOFF, unit.clock.now)
     elif byte == ENTER or (byte == ord(";") and waiting_input(unit, port) is not None):
         _line_end(unit, port)
     elif byte in (BACKSPACE, RUBOUT):
@@ -104,7 +106,7 @@ def _line_end(unit: Unit, port: Port) -> None:
         return  # port 2 takes no commands (SSC manual l.1243)
     elif too_long:
         _refuse(unit, port, BUFFER_FULL)
-    else:
+    elif text.strip() or unit.profile.prompt_on_empty_line:
         _command_line(unit, port, text)
 
 
@@ -137,7 +139,7 @@ def _answer(unit: Unit, wait: Wait, text: str) -> None:
 def _refuse(unit: Unit, port: Port, code: int) -> None:
     port.text.clear()
     if spoken_to(unit, port):
-        unit.state.error_code = code
+        unit.state.error_code = unit.profile.code(code)
         unit.reply(port.number, REFUSED)
 
 
@@ -185,5 +187,5 @@ def _finish(unit: Unit, port: Port) -> None:
         unit.set_program(unit.state.program)
     port.mode = "command"
     if error:
-        unit.state.error_code = error
+        unit.state.error_code = unit.profile.code(error)
     unit.reply(port.number, REFUSED if error else ACCEPTED)

@@ -94,11 +94,43 @@ def test_output_waits_for_the_host() -> None:
 
 
 def test_xoff_holds_output_until_xon() -> None:
-    uart = Uart()
-    uart.set_stopped(True, 0)
+    uart = Uart(xon_xoff=True)
+    uart.receive(b"\x13", 0)
+    uart.run(0)
     uart.send(b"abc", 0)
     uart.run(SECOND)
     assert uart.transmit() == b""
-    uart.set_stopped(False, SECOND)
+    uart.receive(b"\x11", SECOND)
     uart.run(SECOND)
     assert uart.transmit() == b"abc"
+    assert taken(uart, SECOND) == b""
+
+
+def test_characters_that_only_look_like_flow_control_are_left_alone() -> None:
+    uart = Uart(xon_xoff=True)
+    uart.receive(b"\x12\x13\x11", 0)  # ^R^S is the master reset, a ^Q ends a download (dmc-1412-1414.txt l.3408)
+    uart.run(0)
+    assert not uart.stopped
+    assert taken(uart, 0) == b"\x12\x13\x11"
+    other = Uart()
+    other.receive(b"\x13", 0)
+    other.run(0)
+    assert taken(other, 0) == b"\x13"
+
+
+def test_a_host_that_is_held_by_xoff_loses_nothing() -> None:
+    uart = Uart(baud=9600, handshake=False, tells_xoff=True)
+    data = bytes(range(32, 132)) * 6
+    sent, now, held, found = 0, 0, False, bytearray()
+    while len(found) < len(data):
+        if not held and sent < len(data):  # a host that sends one character after the other until it is told to wait
+            uart.receive(data[sent : sent + 1], now)
+            sent += 1
+        now += SECOND * 10 // 9600 + 1
+        uart.run(now)
+        for byte in uart.transmit():
+            held = byte == 0x13
+        if held or sent == len(data):
+            found += taken(uart, now)
+    assert bytes(found) == data
+    assert uart.overruns == 0

@@ -158,3 +158,13 @@ def test_stop_burst_in_command_mode() -> None:
     answer = bench.type("\x11\x1b\\ST\rST\r")
     assert answer == "?:"
     assert not bench.simulation.unit.running()
+
+
+def test_xon_is_heard_while_a_long_answer_waits() -> None:
+    bench = Bench()
+    program = "\n".join(["#A", *["NO 0123456789"] * 30, "EN"])  # far more than the 128 characters of l.1333
+    bench.load(program)
+    bench.type("\x13")
+    assert bench.type("UL\r", ms=100) == ""
+    answer = bench.type("\x11", ms=100)
+    assert answer == program.replace("\n", "\r\n") + "\r\n\x1a:"
