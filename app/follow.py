@@ -60,7 +60,7 @@ class Follow(QObject):
         self._window.show_title(self._session.title, controller.kind)
         self._show_question()
         online = controller.kind is not Kind.OFFLINE
-        self._window.run_bar.show_badge(controller.program_badge if online else None)
+        self._window.run_bar.show_held(self._run.held() if online else None)
         self._window.status.progress.show_job(self._run.doing, self._run.job)
         self._watch()
         self._status(controller.last())

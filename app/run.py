@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
+from datetime import datetime
+from functools import partial
 from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Signal
 
 from app.connection import Connection
+from app.held import Held, Holding, Sent, burn_words, execute_words, held_by
 from app.session import Session
 from app.tick import Tick, failure_of
 from codegen.generate import Listing
 from codegen.program import program_label
 from device.api import Badge, Job
+from device.download import program_lines
 
 Answers = Sequence[tuple[str, Callable[[], None]]]
 
@@ -33,12 +38,23 @@ class Run(QObject):
     show_problem = Signal(str)  # step id
 
     def __init__(
-        self, connection: Connection, session: Session, tick: Tick, ask: Ask, parent: QObject | None = None
+        self,
+        connection: Connection,
+        session: Session,
+        tick: Tick,
+        ask: Ask,
+        parent: QObject | None = None,
+        now: Callable[[], datetime] = datetime.now,
     ) -> None:
         super().__init__(parent)
         self._connection, self._session, self._tick, self._ask = connection, session, tick, ask
         self.job: Job[Any] | None = None
         self.doing = ""
+        self._now = now
+        self._last: Sent | None = None  # under way, or sent last, of the program that is open
+        self._sent: Sent | None = None  # verified
+        self._known: tuple[object, Held] | None = None
+        session.replaced.connect(self._forget_open)
 
     def download(self, then: Callable[[], None] | None = None) -> None:
         """The listing of the open program, verified by reading it back."""
@@ -71,25 +87,25 @@ class Run(QObject):
 
     def _download(self, then: Callable[[], None] | None) -> None:
         listing = self._session.listing  # as sent: the document may change meanwhile
+        name = program_label(self._session.document.program)
         job = self._connection.controller.download(listing.text)
-        self._begin("Downloading", job, lambda done: self._downloaded(done, listing, then))
+        sent = Sent(name, tuple(program_lines(listing.text)), self._now().strftime("%H:%M"))
+        self._last = sent
+        self._begin("Downloading", job, lambda done: self._downloaded(done, listing, sent, then))
 
     def execute(self) -> None:
-        """Runs the program when it is the one that was verified; otherwise asks which one is meant."""
-        badge = self._connection.controller.program_badge
-        if badge is Badge.SAME:
+        """Runs the program when it is the one that was verified; otherwise says what is held and asks what is meant."""
+        held = self.held()
+        if held.holding is Holding.SAME:
             self.run_in_controller()
-            return
-        words = {
-            Badge.CHANGED: "The program was changed since it was downloaded. The controller holds the earlier one.",
-            Badge.UNKNOWN: "What is in the controller is not known to be this program.",
-        }[badge]
-        answers: Answers = [
-            ("Download and execute", lambda: self.download(self.run_in_controller)),
-            ("Run what is in the controller", self.run_in_controller),
-            ("Show what is in the controller", self.upload),
-        ]
-        self._ask("Which program?", words, answers, "warning")
+        elif held.holding is Holding.UNKNOWN:
+            self._read_first(self.execute)
+        else:
+            download = ("Download and execute", lambda: self.download(self.run_in_controller))
+            run = ("Run what is in the controller", partial(self._run_held, held))
+            show = ("Show what is in the controller", self.upload)
+            answers = [download] if held.holding is Holding.EMPTY else [download, run, show]
+            self._ask("Which program?", execute_words(held), answers, "warning")
 
     def run_in_controller(self) -> None:
         """XQ of the program's label if the verified listing is in the controller, else of line 0."""
@@ -98,38 +114,88 @@ class Run(QObject):
         label = program_label(self._session.document.program) if same else None
         self._then(controller.execute(label, anyway=not same), self._executed)
 
+    def held(self) -> Held:
+        """What the controller holds; worked out again only when something about it has changed."""
+        controller = self._connection.controller
+        key = (controller, controller.listing, controller.program_badge, self._sent)
+        if self._known is None or self._known[0] != key:
+            self._known = (key, held_by(controller, self._sent))
+        return self._known[1]
+
     def halt(self) -> None:
         """Halts all threads and decelerates all motion."""
-        self._then(self._connection.controller.halt(), lambda _: self.said.emit("Halted: programs and motion."))
+        self._then(self._connection.controller.halt(), self._halted)
 
     def burn(self) -> None:
-        """Says what the next power-up will do, then burns when told to."""
-        words = self._connection.controller.memory.burn_words()
-        self._ask("Burn the program?", words, [("Burn", self._burn)], "warning")
+        """Says what will be burned and what the next power-up will do, then burns when told to."""
+        held = self.held()
+        if held.holding is Holding.UNKNOWN:
+            self._read_first(self.burn)
+            return
+        name = program_label(self._session.document.program)
+        burn, first = ("Burn", partial(self._burn, held)), ("Download first", partial(self.download, self.burn))
+        answers = [burn] if held.holding is Holding.SAME else [first, burn]
+        self._ask("Burn the program?", burn_words(held, name), answers, "warning")
 
     def upload(self) -> None:
-        """Reads the controller's program."""
-        self._begin(
-            "Uploading", self._connection.controller.upload(), lambda done: self.uploaded.emit(str(done.result()))
-        )
+        """Reads the controller's program and shows it."""
+        self._read(lambda done: self.uploaded.emit(str(done.result())))
 
     def cancel(self) -> None:
         """Gives up what is under way."""
         if self.job is not None:
             self.job.cancel()
 
-    def _burn(self) -> None:
+    def _read(self, finished: Callable[[Future[Any]], None]) -> None:
+        self._begin("Uploading", self._connection.controller.upload(), finished)
+
+    def _read_first(self, then: Callable[[], None]) -> None:
+        """What the controller holds is not known: it is read, then asked about."""
+        controller = self._connection.controller
+
+        def go_on(_: Future[Any]) -> None:
+            if controller is not self._connection.controller or self.held().holding is Holding.UNKNOWN:
+                self.said.emit("What the controller holds is still not known. Try again.")
+            else:
+                then()
+
+        self._read(go_on)
+
+    def _run_held(self, held: Held) -> None:
+        if self._still(held, "Not started"):
+            self.run_in_controller()
+
+    def _burn(self, held: Held) -> None:
+        if not self._still(held, "Not burned"):
+            return
         self.doing = "Burning: leave the power on"
         future = self._connection.controller.burn_program()
-        self._then(future, lambda _: self.said.emit("The program is burned: it is there after the next power-up."))
+        self._then(future, self._burned, "It is not known whether the program was burned: ")
+
+    def _still(self, held: Held, what: str) -> bool:
+        """Whether the controller holds what the person was told; says so when it does not."""
+        if self.held() == held:
+            return True
+        self.said.emit(f"{what}: what the controller holds is not what was asked about. Try again.")
+        return False
+
+    def _burned(self, future: Future[Any]) -> None:
+        reply = future.result()
+        burned = "The program is burned: it is there after the next power-up."
+        self.said.emit(burned if reply.accepted else f"The program is not burned: {reply.reason}")
+
+    def _halted(self, future: Future[Any]) -> None:
+        reply = future.result()
+        self.said.emit("Halted: programs and motion." if reply.accepted else f"Halt: {reply.reason} Press STOP.")
 
     def _executed(self, future: Future[Any]) -> None:
         reply = future.result()
         self.said.emit("The program runs." if reply.accepted else f"The controller refused to run it: {reply.reason}")
 
-    def _downloaded(self, future: Future[Any], listing: Listing, then: Callable[[], None] | None) -> None:
+    def _downloaded(self, future: Future[Any], listing: Listing, sent: Sent, then: Callable[[], None] | None) -> None:
         done = future.result()
         if done.verified:
+            self._sent = dc.replace(sent, open=self._last is sent)
             self.downloaded.emit(listing)
         self.said.emit(done.sentence)
         if then is not None and done.verified:
@@ -139,12 +205,17 @@ class Run(QObject):
         self.job, self.doing = job, doing
         self._then(job.future, finished)
 
-    def _then(self, future: Future[Any], finished: Callable[[Future[Any]], None]) -> None:
+    def _forget_open(self) -> None:
+        """Another program is open: what was sent is no earlier state of it."""
+        self._last = None
+        self._sent = dc.replace(self._sent, open=False) if self._sent is not None else None
+
+    def _then(self, future: Future[Any], finished: Callable[[Future[Any]], None], before: str = "") -> None:
         def done(future: Future[Any]) -> None:
             self.job, self.doing = None, ""
             failure = failure_of(future)
             if failure:
-                self.said.emit(failure)
+                self.said.emit(f"{before}{failure}")
             else:
                 finished(future)
 

@@ -149,7 +149,9 @@ def test_execute_asks_which_program_is_meant(stage: Stage, situation: Callable[[
     stage.go(30)
     assert rig.sent("XQ") == []
     assert rig.running == []
-    _, answers = asked(stage)
+    words, answers = asked(stage)
+    assert "Execute belongs to the program that was downloaded and verified." in words
+    assert rig.program[1] in words  # what would run is shown
     assert set(answers) == {
         "Download and execute", "Run what is in the controller", "Show what is in the controller",
     }  # fmt: skip
@@ -203,7 +205,8 @@ def test_burn_says_what_the_next_power_up_will_do_and_waits_for_the_answer(stage
     stage.download()
     trigger(stage, "burn")
     words, _ = asked(stage)
-    assert words == "At the next power-up this program is in the controller but does not start: it has no #AUTO."
+    assert "What is burned is the open program “CUTTER”" in words
+    assert "At the next power-up it is in the controller but does not start: it has no #AUTO." in words
     stage.go(30)
     assert rig.sent("BP") == []
     answer(stage, "Burn")
@@ -213,6 +216,103 @@ def test_burn_says_what_the_next_power_up_will_do_and_waits_for_the_answer(stage
     rig.simulation.stimulus("reset", 0)
     stage.later(3.0)
     assert rig.program == code(stage)
+
+
+def other(stage: Stage, program: str = OTHER) -> Rig:
+    """A controller with another program than the open one, which was looked at."""
+    rig = same_model(stage, program=program)
+    trigger(stage, "upload")
+    stage.until(lambda: rig.controller.listing is not None)
+    stage.go()
+    return rig
+
+
+AUTO = "#AUTO\nPR 100\nBGX\nAMX\nEN"
+
+
+@pytest.mark.parametrize(
+    ("program", "starts"),
+    [(OTHER, "does not start: it has no #AUTO"), (AUTO, "starts by itself at #AUTO: the machine may move")],
+)
+@pytest.mark.parametrize("looked", [True, False])
+def test_burn_of_another_program_says_which_and_whether_it_starts(
+    stage: Stage, program: str, starts: str, looked: bool
+) -> None:
+    rig = other(stage, program) if looked else same_model(stage, program=program)
+    trigger(stage, "burn")
+    stage.until(lambda: stage.studio.desk.question is not None)
+    words, answers = asked(stage)
+    count = program.count("\n") + 1
+    assert f"not the open program but what the controller holds: a program that is not the open one ({count} " in words
+    assert starts in words
+    assert program.split("\n")[1] in words  # its code is shown
+    assert set(answers) == {"Download first", "Burn"}
+    assert rig.sent("BP") == []
+    answer(stage, "Burn")
+    idle(stage)
+    rig.simulation.stimulus("reset", 0)
+    stage.later(3.0)
+    assert rig.program == program.split("\n")
+
+
+def test_burn_of_an_earlier_download_says_so_and_offers_the_download_first(stage: Stage) -> None:
+    rig = changed(stage)
+    trigger(stage, "burn")
+    words, _ = asked(stage)
+    assert "What is burned is “CUTTER” as it was downloaded at " in words
+    assert "without the changes since then" in words
+    answer(stage, "Download first")
+    stage.until(lambda: rig.controller.program_badge is Badge.SAME and not stage.studio.run.doing)
+    words, _ = asked(stage)
+    assert "the open program “CUTTER”" in words
+    assert rig.sent("BP") == []
+
+
+def test_burn_of_an_empty_memory_says_so(stage: Stage) -> None:
+    same_model(stage)
+    trigger(stage, "burn")
+    stage.until(lambda: stage.studio.desk.question is not None)
+    words, _ = asked(stage)
+    assert "There is no program in the controller" in words
+
+
+def test_what_has_changed_since_it_was_asked_about_is_not_burned(stage: Stage) -> None:
+    rig = other(stage)
+    stage.later(5.0)
+    stage.go()
+    trigger(stage, "burn")
+    rig.simulation.stimulus("reset", 0)
+    stage.later(1.0)
+    stage.until(lambda: "restarted" in " ".join(stage.studio.messages.texts()))
+    answer(stage, "Burn")
+    stage.go(30)
+    assert rig.sent("BP") == []
+    assert "Not burned: what the controller holds is not what was asked about" in stage.studio.messages.texts()[-1]
+
+
+def test_a_refused_burn_is_not_called_burned(stage: Stage) -> None:
+    rig = same_model(stage)
+    rig.simulation.stimulus("in1", 0)
+    stage.download()
+    trigger(stage, "execute")
+    stage.until(lambda: rig.running == [code(stage).index("AI 1")])
+    trigger(stage, "burn")
+    answer(stage, "Burn")
+    idle(stage)
+    assert rig.sent("BP") == ["BP"]
+    said = stage.studio.messages.texts()[-1]
+    assert "not burned" in said
+    assert "The program is burned" not in said
+
+
+def test_a_burn_without_an_answer_is_not_known(stage: Stage) -> None:
+    rig = same_model(stage)
+    stage.download()
+    trigger(stage, "burn")
+    answer(stage, "Burn")
+    rig.cut()
+    idle(stage)
+    assert "It is not known whether the program was burned" in " ".join(stage.studio.messages.texts())
 
 
 def test_what_was_not_burned_is_gone_after_a_power_failure(stage: Stage) -> None:
@@ -255,6 +355,39 @@ def test_the_badge_says_whether_the_controller_holds_this_program(stage: Stage) 
     stage.studio.session.undo()
     stage.go()
     assert "In the controller" in badge.text()
+
+
+def test_the_badge_and_execute_say_when_the_program_is_another_one(stage: Stage) -> None:
+    rig = other(stage)
+    badge = stage.studio.window.run_bar.badge
+    assert "Another program" in badge.text()
+    assert "a program that is not the open one (3 lines, first label #A)" in badge.toolTip()
+    trigger(stage, "execute")
+    words, _ = asked(stage)
+    assert "a program that is not the open one" in words
+    assert "changed since" not in words.lower()
+    assert rig.sent("XQ") == []
+
+
+def test_what_was_downloaded_is_another_program_once_another_one_is_open(stage: Stage) -> None:
+    same_model(stage)
+    stage.download()
+    stage.studio.session.new()
+    stage.go()
+    badge = stage.studio.window.run_bar.badge
+    assert "Another program" in badge.text()
+    assert "“CUTTER” as it was downloaded at " in badge.toolTip()
+
+
+def test_execute_without_any_program_in_the_controller_offers_only_the_download(stage: Stage) -> None:
+    rig = same_model(stage)
+    trigger(stage, "execute")
+    stage.until(lambda: stage.studio.desk.question is not None)
+    words, answers = asked(stage)
+    assert words.startswith("There is no program in the controller.")
+    assert answers == ["Download and execute"]
+    assert "No program" in stage.studio.window.run_bar.badge.text()
+    assert rig.sent("XQ") == []
 
 
 def test_a_controller_connected_later_is_told_the_document_too(stage: Stage) -> None:
