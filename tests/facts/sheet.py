@@ -8,7 +8,10 @@
     plant KEY=VALUE…         the machine on which the facts below are tried (a fresh one)
     fresh                    a fresh controller for what follows
     takes LINE               column 1: is accepted
+    runs LINE                column 1: is accepted in a program (which has a subroutine #Q)
+    opens LINE               column 1: is accepted and takes what follows, until ctrl-Q
     refuses CODE LINE        column 2: is refused with that error code
+    stops CODE LINE          column 2: ends a program with that error code
     answers LINE -> REPLY    column 3: `?`, or what the command tells
     unasked CODE LINE        column 3: there is no such question
     reads VALUE OPERAND      column 4: the operand reads that (VALUE may be a range LOW..HIGH)
@@ -27,13 +30,16 @@ from functools import cache
 from pathlib import Path
 
 from codegen.models import MODELS, model
-from tests.examples.script import Example, Player
+from tests.examples.script import Bench, Example, Player
 
 HERE = Path(__file__).parent
 COLUMNS = ("takes", "refuses", "answers", "reads", "does")
 IN_COLUMN = {
     "takes": "takes",
+    "runs": "takes",
+    "opens": "takes",
     "refuses": "refuses",
+    "stops": "refuses",
     "answers": "answers",
     "unasked": "answers",
     "reads": "reads",
@@ -201,6 +207,35 @@ class Prober(Player):
     def do_refuses(self, rest: str) -> None:
         """Is refused."""
         self.do_refused(rest)
+
+    def _in_program(self, text: str) -> list[int]:
+        """The error codes of a program with that line."""
+        bench = Bench.of(self.example.model)
+        bench.simulation.load_program(f"#A\n{text}\nEN\n#Q;EN")
+        bench.simulation.execute("#A")
+        bench.run(0.1)
+        return [error["code"] for error in bench.simulation.errors]
+
+    def do_runs(self, rest: str) -> None:
+        """Is accepted in a program."""
+        codes = self._in_program(rest)
+        self.must(codes == [], f"{rest} was refused with {codes}")
+
+    def do_opens(self, rest: str) -> None:
+        """Opens a mode of its own: neither prompt nor refusal, and then ctrl-Q ends it."""
+        came = b""
+        for data in (rest.encode() + b"\r", b"\x11"):
+            self.bench.simulation.transmit(1)
+            self.bench.simulation.receive(1, data)
+            self.bench.run(0.02)
+            came = self.bench.simulation.transmit(1)
+            self.must(came.endswith(b":") if data == b"\x11" else not came.endswith((b":", b"?")), f"{rest}: {came!r}")
+
+    def do_stops(self, rest: str) -> None:
+        """Ends a program."""
+        code, _, text = rest.partition(" ")
+        codes = self._in_program(text)
+        self.must(codes == [int(code)], f"{text} ended with {codes}, not {code}")
 
     def do_answers(self, rest: str) -> None:
         """Answers."""
