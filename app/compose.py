@@ -69,7 +69,7 @@ class Studio(QObject):
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.search = Search(seek or connect, clock, self)
-        self.start = Start(self.connection, self.search, settings, ports, self.model, self.window)
+        self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.which = WhichModel(self.connection, settings, self.desk.ask)
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
@@ -106,8 +106,7 @@ class Studio(QObject):
             "setup": desk.show_setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
-            "simulator": partial(self.leaving.careful, "Use the simulator?", start.use_simulator),
-            "disconnect": partial(self.leaving.careful, "Disconnect?", self.connection.go_offline),
+            "simulator": start.use_simulator, "disconnect": start.disconnect_now,
             "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
             "stop": self.connection.stop, "help": desk.help_for_focus,

@@ -13,7 +13,7 @@ from app.connection import Connection
 from app.desk import Desk
 from app.files import Files
 from app.run import Run
-from device.api import Kind, State, StopState
+from device.api import Controller, Kind, State, StopState
 
 TITLE = "Leave Twoletter Studio?"
 THREADS = 4
@@ -28,7 +28,7 @@ class Leaving(QObject):
         super().__init__(window)
         self._connection, self._run, self._desk, self._files, self._window = connection, run, desk, files, window
         self._agreed = False  # the person leaves it going on; holds until nothing does
-        self._stopping = False
+        self._then: tuple[Controller, Callable[[], object]] | None = None  # once this one has stopped
 
     def asked(self, event: QCloseEvent) -> None:
         """The window is to be closed."""
@@ -37,10 +37,7 @@ class Leaving(QObject):
             self._desk.closing(event, self._files)
             return
         event.ignore()
-        answers = [("Leave it running", self._agree)]
-        if not self._run.doing:
-            answers.insert(0, ("Stop and leave", self._stop))
-        self._desk.ask(TITLE, f"{words} Without this window there is no STOP and no F12.", answers, "warning")
+        self._put(TITLE, f"{words} Without this window there is no STOP and no F12.", "Stop and leave", self._agree)
 
     def careful(self, title: str, go_on: Callable[[], object]) -> None:
         """Turns to something else, after asking when the machine works: STOP reaches only what is connected."""
@@ -48,8 +45,13 @@ class Leaving(QObject):
         if not words:
             go_on()
             return
-        answers = (("Stop it", self._connection.stop), ("Leave it running", lambda: go_on() and None))
-        self._desk.ask(title, f"{words} Afterwards STOP and F12 no longer reach it.", answers, "warning")
+        self._put(title, f"{words} Afterwards STOP and F12 no longer reach it.", "Stop it first", go_on)
+
+    def _put(self, title: str, words: str, stop: str, go_on: Callable[[], object]) -> None:
+        answers: list[tuple[str, Callable[[], None]]] = [("Leave it running", lambda: go_on() and None)]
+        if not self._run.doing:
+            answers.insert(0, (stop, lambda: self._stop(go_on)))
+        self._desk.ask(title, words, answers, "warning")
 
     def going_on(self) -> str:
         """What would go on, or break off, without the studio, as a sentence; nothing when it may go."""
@@ -58,6 +60,8 @@ class Leaving(QObject):
             return f"{self._run.doing.partition(':')[0]} is not finished."
         if controller.kind is not Kind.MACHINE:
             return ""  # a simulator of ours ends with the studio
+        if controller.identity is None:
+            return ""  # nobody has ever answered there
         if controller.state is State.LOST:
             return "The controller does not answer: whether something moves is not known."
         if controller.resting():
@@ -73,21 +77,23 @@ class Leaving(QObject):
         return f"{words[0].upper()}{words[1:]}." if words else ""
 
     def look(self) -> None:
-        """With each tick: leaves once the stop is proved, stays when it is not."""
+        """With each tick: goes on once the stop is proved, stays when it is not."""
         if self._agreed and not self.going_on():
             self._agreed = False
-        if not self._stopping:
+        if self._then is None:
             return
-        state = self._connection.controller.stop_state
-        if state is StopState.STOPPED:
-            self._stopping = False
-            self._agree()
-        elif state is not StopState.STOPPING:
-            self._stopping = False
+        controller, go_on = self._then
+        if controller is not self._connection.controller:
+            self._then = None
+        elif controller.stop_state is StopState.STOPPED:
+            self._then = None
+            go_on()
+        elif controller.stop_state is not StopState.STOPPING:
+            self._then = None
             self.said.emit("Not left: the stop is not confirmed.")
 
-    def _stop(self) -> None:
-        self._stopping = True
+    def _stop(self, go_on: Callable[[], object]) -> None:
+        self._then = (self._connection.controller, go_on)
         self._connection.stop()
 
     def _agree(self) -> None:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from app.connection import Connection, Opened
+from app.leaving import Leaving
 from app.search import Candidate, Search
 from app.settings import Settings
+from device.api import Controller, Kind, State
 from device.transport import LineSettings
 
 if TYPE_CHECKING:
@@ -34,11 +37,13 @@ class Start(QObject):
         settings: Settings,
         ports: Ports,
         model: Callable[[], str],
+        leaving: Leaving,
         parent: QWidget,
     ) -> None:
         super().__init__(parent)
         self._connection, self._search, self._settings = connection, search, settings
-        self._ports, self._model, self._window = ports, model, parent
+        self._ports, self._model, self._leaving, self._window = ports, model, leaving, parent
+        self._left: Controller | None = None  # works on, and the person turns away from it all the same
         self.welcome: Welcome | None = None
         self.serial: SerialSetup | None = None
         search.looking.connect(self._looking)
@@ -47,9 +52,26 @@ class Start(QObject):
         search.nothing.connect(self._nothing)
 
     def look(self) -> None:
-        """Shows the welcome window and looks for a controller."""
+        """Shows the welcome window and looks for a controller, after asking when the one that is connected works."""
+        self._left = self._connection.controller if self._leaving.going_on() else None
+        self._leaving.careful("Look for another controller?", self._look)
+
+    def _look(self) -> None:
+        if self._here() is None:  # the port of one that does not answer is tried like any other
+            self._connection.go_offline()
+        others = [each for each in self._known() if each.device != self._here()]
+        if self._here() and not others:
+            self._nothing("There is no other serial port on this computer.")
+            return
         self.welcome_window().show_looking("Listing the ports of this computer…")
-        self._search.start(self._known(), self.line())
+        self._search.start(others, self.line())
+
+    def _here(self) -> str | None:
+        """The port of the machine that is connected; None while it does not answer, "" where there is no machine."""
+        controller = self._connection.controller
+        if controller.kind is not Kind.MACHINE:
+            return ""
+        return self._connection.address if controller.state is State.READY else None
 
     def begin(self) -> None:
         """Looks on the ports known from before; where none was ever used, the simulator is there at once."""
@@ -74,10 +96,16 @@ class Start(QObject):
 
     def use_simulator(self, model: str = "") -> None:
         """A simulated controller: of the model that the program is for, where none is named."""
+        self._leaving.careful("Use the simulator?", partial(self._simulate, model or self._model()))
+
+    def _simulate(self, model: str) -> None:
         self._search.cancel()
-        line = LineSettings(baud=self._settings.get("simulator_baud"))
-        self._connection.open_simulator(model or self._model(), line)
+        self._connection.open_simulator(model, LineSettings(baud=self._settings.get("simulator_baud")))
         self._done()
+
+    def disconnect_now(self) -> None:
+        """Closes the connection, after asking when the machine works."""
+        self._leaving.careful("Disconnect?", self._connection.go_offline)
 
     def open_port(self, device: str) -> None:
         """A port that was named on the command line, with the settings used last."""
@@ -107,6 +135,9 @@ class Start(QObject):
         )
 
     def _chosen(self, choice: SerialChoice) -> None:
+        self._leaving.careful("Connect to another port?", partial(self._connect_to, choice))
+
+    def _connect_to(self, choice: SerialChoice) -> None:
         values = {"port": choice.port, "baud": choice.baud, "bits": choice.bits, "stop_bits": choice.stop_bits}
         for key, value in {
             **values,
@@ -133,16 +164,27 @@ class Start(QObject):
         ways[name]()
 
     def _offline(self) -> None:
+        self._leaving.careful("Work without a controller?", self._go_offline)
+
+    def _go_offline(self) -> None:
         self._search.cancel()
         self._connection.go_offline()
         self._done()
 
     def _offline_setup(self) -> None:
-        self._offline()
+        self._leaving.careful("Work without a controller?", self._set_up_offline)
+
+    def _set_up_offline(self) -> None:
+        self._go_offline()
         self.setup_wanted.emit()
 
     def _found(self, candidate: Candidate, opened: Opened) -> None:
         self._remember(candidate.device)
+        working = self._leaving.going_on()  # begun while the search went on
+        if working and self._left is not self._connection.controller:
+            opened.controller.close()
+            self._nothing(f"A controller answers at {candidate.device}, but the other one works. {working}")
+            return
         self._connection.adopt(opened, candidate.device)
         self._done()
 
@@ -154,7 +196,12 @@ class Start(QObject):
         self.welcome_window().show_question(candidate.device, candidate.words)
 
     def _nothing(self, sentence: str) -> None:
-        self.welcome_window().show_nothing(sentence)
+        here = self._here()
+        welcome = self.welcome_window()
+        if here:
+            welcome.show_nothing(f"{here} stays connected. {sentence}", "No other controller")
+        else:
+            welcome.show_nothing(sentence)
 
     def welcome_window(self) -> Welcome:
         """The welcome window, made when it is first needed."""

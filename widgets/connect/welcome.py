@@ -74,9 +74,9 @@ class Welcome(QDialog):
         self.adjustSize()
         self.allow.setFocus()
 
-    def show_nothing(self, sentence: str) -> None:
+    def show_nothing(self, sentence: str, heading: str = "No controller connected") -> None:
         """No controller answered: the reason, and what can be done."""
-        self._say("No controller connected", sentence, busy=False)
+        self._say(heading, sentence, busy=False)
 
     def _say(self, heading: str, sentence: str, busy: bool) -> None:
         self.heading.setText(heading)
