@@ -265,7 +265,8 @@ class Controller:
         """The stop is now known to be in this state."""
         if state is not self._stop_state:
             self._stop_state = state
-            self.notify(NoticeKind.STOP, f"STOP: {state}.")
+            if state in (StopState.STOPPING, StopState.STOPPED, StopState.NOT_CONFIRMED):
+                self.notify(NoticeKind.STOP, f"STOP: {state}.")
 
     # --------------------------------------------------------------- asking
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse
+from device.wire import FAULT
 
 MAY_ASK = re.compile(r"(?m)(?:^|;)[ \t]*(?:I[ \t]*N|C[ \t]*I)")  # a text without this asks nothing and needs no parsing
 AUTOMATIC = ("LIMSWI", "POSERR", "ININT", "MCTIME", "CMDERR", "COMINT", "AUTO")
@@ -71,10 +72,14 @@ class Listing:
         """The text of the question in a line."""
         return next((question.prompt for question in self.questions if question.line == line), "")
 
+    def holds(self, line: int, text: str) -> bool:
+        """Whether this text is what stands in that line."""
+        lines = self.text.split("\n")
+        return line < len(lines) and bool(text) and lines[line].strip() == text.strip()
+
     def ends_at(self, line: int, text: str) -> bool:
         """Whether an error told with this line and text ends its thread: it is ours, and no #CMDERR takes it."""
-        lines = self.text.split("\n")
-        return "CMDERR" not in self._labels and line < len(lines) and bool(text) and lines[line].strip() == text.strip()
+        return "CMDERR" not in self._labels and self.holds(line, text)
 
     def after(self, lines: tuple[int, ...]) -> frozenset[int]:
         """Where thread 0 may be once one of these questions is answered."""
@@ -143,6 +148,21 @@ class Listing:
                 yield number + 1
                 if any(calls[:-1]):
                     yield number
+
+
+def parted(line: str, listing: Listing | None) -> tuple[str, int, str]:
+    """A line as the text before an error, the error's line and its text; -1 without an error.
+
+    The text of a question has no line end, so an error may stand right behind it; it is told apart where the listing
+    holds just that text in just that line.
+    """
+    if listing is not None:
+        for found in FAULT.finditer(line):
+            number, text = int(found.group(1)), line[found.end() :]
+            if listing.holds(number, text):
+                return line[: found.start()].rstrip(":"), number, text
+    whole = FAULT.match(line)
+    return ("", int(whole.group(1)), line[whole.end() :]) if whole is not None else (line, -1, "")
 
 
 def _port_two(statement: nodes.Command) -> bool:

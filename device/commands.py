@@ -27,6 +27,7 @@ ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}
 USUAL_S = 1.0
+OWN_MARK = re.compile(r"(?:^|\n):*\?(?![ ]*[0-9]{3} )")  # a refusal: no part of a line, no error of a program
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,14 +58,13 @@ def typed(controller: Controller, command: str, timeout_s: float | None) -> Step
     found = names(command)
     if found and found[-1] in ENTRY:
         return (yield from _enter(controller, command, found[-1]))
-    if any(name == "XQ" for name in found):
-        yield from _know_program(controller)
+    before = (yield from _before_start(controller)) if "XQ" in found else 0
     limit = timeout_s or max([SLOW.get(name, USUAL_S) for name in found], default=USUAL_S)
     if "UL" in found:
         answer = yield Send(data_line(command), Upload(), timeout_s=1.0, extends=True)
         return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
     if _plain(command, found, controller):
-        return (yield from _with_proof(controller, command, limit))
+        return (yield from _with_proof(controller, command, limit, before))
     count = max(len(parse_line(command).statements), 1)
     answer = yield Send(data_line(command), Prompts(count), limit, refusal_s=0.05)
     return (yield from _reply(controller, answer, command, limit))
@@ -103,13 +103,13 @@ def _plain(command: str, found: list[str], controller: Controller) -> bool:
     )
 
 
-def _with_proof(controller: Controller, command: str, limit: float) -> Steps[Reply]:
+def _with_proof(controller: Controller, command: str, limit: float, before: int) -> Steps[Reply]:
     """The frame behind the command comes only when the command was accepted."""
     nonce = next(controller.nonces)
     statements = parse_line(command).statements
     expected = Proof(nonce, len(statements), any(_tells(s) for s in statements))
     answer = yield Send(data_line(f"{command};{framed(nonce, ())}"), expected, limit, refusal_s=0.05)
-    return (yield from _reply(controller, answer, command, limit, nonce))
+    return (yield from _reply(controller, answer, command, limit, nonce, before))
 
 
 def _tells(statement: nodes.Statement) -> bool:
@@ -121,14 +121,19 @@ def _tells(statement: nodes.Statement) -> bool:
     return isinstance(statement, nodes.Print | nodes.Broken | nodes.Foreign)
 
 
-def _reply(controller: Controller, answer: Answer, command: str, limit: float, nonce: str = "") -> Steps[Reply]:
+def _reply(
+    controller: Controller, answer: Answer, command: str, limit: float, nonce: str = "", before: int = 0
+) -> Steps[Reply]:
     """What an answer means; a refusal is proved by a later read, which also tells the reason."""
-    reply = yield from _judged(controller, answer, command, limit, nonce)
+    reply = yield from _judged(controller, answer, command, limit, nonce, before)
     controller.link.note("<", f"{reply.text}\n:".lstrip("\n") if reply.accepted else f"? {reply.reason}", "user")
     return reply
 
 
-def _judged(controller: Controller, answer: Answer, command: str, limit: float, nonce: str) -> Steps[Reply]:
+def _judged(
+    controller: Controller, answer: Answer, command: str, limit: float, nonce: str, before: int
+) -> Steps[Reply]:
+    """`before`: the error code that stood there already; a `?` of a program's text makes no refusal of it."""
     if answer.kind is Kind.ACCEPTED:
         return Reply(answer.text, True, answer.certain)
     if answer.kind is Kind.SILENT:
@@ -138,7 +143,9 @@ def _judged(controller: Controller, answer: Answer, command: str, limit: float, 
     if nonce and nonce in wire.seen:
         return Reply("", True, False)
     code = int(fenced.values[0]) if fenced.kind is Kind.VALUES else 0
-    if ("?" not in answer.text and answer.kind is not Kind.REFUSED) or not code:
+    refused = answer.kind is Kind.REFUSED or OWN_MARK.search(answer.text) is not None
+    refused = refused or ("?" in answer.text and code != before)
+    if not refused or not code:
         raise LinkLost(f"No clear answer to “{command}”; look whether it was carried out.")
     wire.strip_question()
     words = ERROR_TEXTS.get(code, "unknown error")
@@ -164,11 +171,13 @@ def halt(controller: Controller) -> Steps[Reply]:
     return (yield from _reply(controller, answer, "HX;ST", USUAL_S))
 
 
-def _know_program(controller: Controller) -> Steps[None]:
-    """Before a program starts its listing is read: whether it asks questions decides what may be sent while it runs."""
+def _before_start(controller: Controller) -> Steps[int]:
+    """Before a program starts: its listing (whether it asks decides what may be sent), and the error code there is."""
     if controller.waiting.listing is None:
         text = yield from upload_steps(controller.nonces, None)
         controller.waiting.listing = Listing(text)
+    answer = yield from fence(controller.nonces)
+    return int(answer.values[0]) if answer.kind is Kind.VALUES else 0
 
 
 def sent(controller: Controller, data: bytes, source: str) -> None:

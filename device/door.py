@@ -108,7 +108,7 @@ class Door:
         if stop:
             return ""
         if answer:
-            return "" if self.question or self.control else "No question is waiting for an answer."
+            return "" if self.question else "No question is waiting for an answer."
         if self.question:
             return f"Not sent: {self.question} Answer it, or press STOP."
         if poll and self.resting():

@@ -68,10 +68,11 @@ def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identit
     yield Wait(LISTEN_S)
     if address is not None:
         yield Send(f"%{address}\r".encode())
-    answer = yield Send(REVISION, Revision(), timeout_s=1.0)
-    text = answer.text if answer.kind is Kind.ACCEPTED else ""
-    if not text and (yield Send(b"\r", Prompts(1), timeout_s=1.0)).kind is Kind.SILENT:
-        raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
+    text = yield from _revision()
+    if not text:
+        if (yield Send(b"\r", Prompts(1), timeout_s=1.0)).kind is Kind.SILENT:
+            raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
+        text = yield from _revision()  # the answer was late or disturbed
     model = model_of(text)
     serial = yield from _serial(nonces)
     if model is not None:
@@ -80,6 +81,11 @@ def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identit
     if not text and not axes:
         raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
     return Identity(text, None, axes, serial)
+
+
+def _revision() -> Steps[str]:
+    answer = yield Send(REVISION, Revision(), timeout_s=1.0)
+    return answer.text if answer.kind is Kind.ACCEPTED else ""
 
 
 def _serial(nonces: Iterator[str]) -> Steps[int | None]:

@@ -251,7 +251,7 @@ class Link:
         self.sure = answer.kind in (Kind.VALUES, Kind.ACCEPTED, Kind.REFUSED) and answer.certain
         self._current = None
         self._advance(task, answer)
-        if self._silences >= SILENCES and task.priority is not Priority.STOP and not self.door.question:
+        if self._silences >= SILENCES and not self.door.question:
             self._silences = 0
             self._owner.lost("The controller does not answer.", refused=False)
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from codegen.models import MODELS
 from device import commands
-from device.asking import Listing
+from device.asking import Listing, parted
 from device.clock import Reading, Verdict
 from device.download import recover, upload_steps
 from device.happenings import Kind, NoticeKind, State
@@ -30,6 +29,7 @@ class Events:
     def __init__(self, controller: Controller) -> None:
         self._c = controller
         self._checking = False
+        self._asked = ""  # the text of a question as it stands there without a line end
 
     def opened(self) -> None:
         c = self._c
@@ -46,7 +46,8 @@ class Events:
             except (LinkLost, Stopped, NotAllowed) as reason:
                 if self._c.link.transport is None:
                     raise
-                self._c.state_text = str(reason)
+                if not isinstance(reason, Stopped):
+                    self._c.state_text = str(reason)
                 yield Wait(0.3)
 
     def _meet(self) -> Steps[None]:
@@ -204,11 +205,15 @@ class Events:
             c.release_control("Back to Watch: the connection was lost.")
 
     def text(self, line: str) -> None:
+        """A line of a program: a message, or an error, which may stand behind a question that got no answer."""
         c = self._c
-        fault = re.fullmatch(r"\?\s*(\d{3}) (.*)", line)
-        c.notify(NoticeKind.FAULT if fault else NoticeKind.MESSAGE, line)
-        if fault is not None:
-            c.waiting.failed(int(fault.group(1)), fault.group(2))
+        before, number, text = parted(line, c.waiting.listing)
+        if number < 0 or before not in ("", self._asked):
+            c.notify(NoticeKind.MESSAGE, before)
+        self._asked = ""
+        if number >= 0:
+            c.notify(NoticeKind.FAULT, f"?{number:03d} {text}")
+            c.waiting.failed(number, text)
             c.door.question = c.waiting.question
 
     def standing(self, rest: str) -> None:
@@ -217,6 +222,7 @@ class Events:
             c.door.question = c.waiting.question
             prompt = c.waiting.prompt
             c.notify(NoticeKind.PROMPT, prompt.text if prompt is not None else rest)
+            self._asked = rest
 
     def sent(self, data: bytes, source: str) -> None:
         """What leaves may change what the controller holds or waits for."""

@@ -19,7 +19,7 @@ from enum import Enum
 
 OPEN, CLOSE = 30, 31  # the characters that frame a read
 LATE = re.compile("\x1e([a-z0-9]{2})[ 0-9.-]*\x1f\r\n")
-FAULT = re.compile(r"\?\s*[0-9]{3} ")
+FAULT = re.compile(r"\?\s*([0-9]{3}) ")  # how the controller tells of an error: `?`, the line's number, its text
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
 
 
@@ -359,7 +359,7 @@ class Wire:
 
     def _unprompted(self, line: str, take: bool) -> str:
         stray = self._stray
-        while stray and line[:1] in (":", "?"):
+        while stray and line[:1] in (":", "?") and not FAULT.match(line):
             line, stray = line[1:], stray - 1
         if take:
             self._stray = stray
