@@ -8,6 +8,8 @@
     plant KEY=VALUE…         the machine on which the facts below are tried (a fresh one)
     fresh                    a fresh controller for what follows
     takes LINE               column 1: is accepted
+    sends BYTES              column 1: is answered by a prompt within three seconds, without a line end of its own
+    never COLUMN WHY         that column does not exist (control characters only)
     runs LINE                column 1: is accepted in a program (which has a subroutine #Q)
     opens LINE               column 1: is accepted and takes what follows, until ctrl-Q
     refuses CODE LINE        column 2: is refused with that error code
@@ -36,6 +38,7 @@ HERE = Path(__file__).parent
 COLUMNS = ("takes", "refuses", "answers", "reads", "does")
 IN_COLUMN = {
     "takes": "takes",
+    "sends": "takes",
     "runs": "takes",
     "opens": "takes",
     "refuses": "refuses",
@@ -91,6 +94,8 @@ class Entry:
             elif fact.verb == "letters":
                 found["takes"] += 1
                 found["refuses"] += 1
+            elif fact.verb == "never":
+                found[fact.text.partition(" ")[0]] += 1
             elif fact.verb in IN_COLUMN:
                 found[IN_COLUMN[fact.verb]] += 1
         return found
@@ -140,7 +145,7 @@ class Reader:
             self.on = self.models if rest == "all" else models_of(rest)
             assert set(self.on) <= set(self.models), f"{self.file}:{number}: {rest}"
         else:
-            assert word in IN_COLUMN or word in ("axes", "letters", "plant", "fresh"), f"{self.file}:{number}: {line}"
+            assert word in IN_COLUMN or word in ("axes", "letters", "plant", "fresh", "never"), f"{self.file}:{number}: {line}"
             assert self.sources, f"{self.file}:{number}: where does it stand?"
             self.facts.append(Fact(word, rest, frozenset(self.on), self.sources, number))
 
@@ -192,7 +197,7 @@ class Prober(Player):
                 self.waiting, self.plants = None, {}
                 if fact.verb == "plant":
                     self.step("plant", fact.text, [])
-            else:
+            elif fact.verb != "never":
                 getattr(self, f"do_{fact.verb}")(fact.text)
 
     def _does(self, fact: Fact) -> None:
@@ -230,6 +235,18 @@ class Prober(Player):
             self.bench.run(0.02)
             came = self.bench.simulation.transmit(1)
             self.must(came.endswith(b":") if data == b"\x11" else not came.endswith((b":", b"?")), f"{rest}: {came!r}")
+
+    def do_sends(self, rest: str) -> None:
+        """Bytes that are answered by a prompt."""
+        simulation, came = self.bench.simulation, b""
+        simulation.transmit(1)
+        simulation.receive(1, rest.encode().decode("unicode_escape").encode("latin-1"))
+        for _ in range(300):
+            self.bench.run(0.01)
+            came += simulation.transmit(1)
+            if came.endswith(b":"):
+                return
+        self.must(False, f"{rest}: {came!r}")
 
     def do_stops(self, rest: str) -> None:
         """Ends a program."""

@@ -74,11 +74,12 @@ def switches(unit: Unit, axis: int) -> int:
 
 
 def status_byte(unit: Unit, axis: int) -> int:
-    """TB: program running, in an error routine, interrupt enabled, in it, echo."""
+    """TB: program running, contouring, in an error routine, interrupt enabled, in it, echo."""
     state = unit.state
     kinds = {frame.kind for frame in state.threads[0].stack}
     bits = (
         unit.running() << 7
+        | unit.motion.contour.active << 5
         | bool(kinds & {"LIMSWI", "POSERR"}) << 4
         | state.interrupt_armed << 3
         | ("ININT" in kinds) << 2
