@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QVBoxLayout
 import resources
 from app.actions import Actions
 from app.files import Files
+from app.recovery import Recovered
 from app.run import Answers
 from app.session import Session
 from app.settings import Settings
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from widgets.help.panel import HelpPanel
     from widgets.setup.page import SetupPage
     from widgets.terminal.code_window import CodeWindow
+    from widgets.unsaved.window import UnsavedWork
 
 LAYOUTS: Mapping[str, tuple[str, ...]] = {
     "Program": ("Instructions", "Display", "Problems"),
@@ -58,6 +60,8 @@ class Desk(QObject):
         self.setup_page: SetupPage | None = None
         self.help: QDialog | None = None
         self.upload: CodeWindow | None = None
+        self.unsaved: UnsavedWork | None = None
+        self._left: tuple[Recovered, ...] = ()
         self._help_panel: HelpPanel | None = None
 
     def ask(self, title: str, words: str, answers: Answers, picture: str = "help") -> None:
@@ -148,14 +152,43 @@ class Desk(QObject):
         self.upload.show()
 
     def offer_recovery(self) -> bool:
-        """Work that a crashed session left behind; False when there is none."""
-        for left in self._session.recoverable():
-            name = Path(left.original).name if left.original else left.document.program.name or "a new program"
-            words = f"Unsaved work on {name} ({left.when:%d.%m.%Y %H:%M}) was kept when the program ended unexpectedly."
-            recover, forget = partial(self._session.recover, left), partial(self._session.forget, left)
-            self.ask("Recover unsaved work?", words, (("Recover it", recover), ("Throw it away", forget)), "file")
-            return True
-        return False
+        """All work that crashed sessions left behind; False when there is none."""
+        from widgets.unsaved.window import UnsavedWork
+
+        self._left = self._session.recoverable()
+        if not self._left:
+            return False
+        if self.unsaved is None:
+            self.unsaved = UnsavedWork(self._window)
+            self.unsaved.recover_wanted.connect(self._recover)
+            self.unsaved.forget_wanted.connect(self._ask_forget)
+        self.unsaved.show_work([_line(left) for left in self._left])
+        self.unsaved.show()
+        self.unsaved.raise_()
+        return True
+
+    def _recover(self, row: int) -> None:
+        """Opens it; what is open and unsaved is set aside, not lost."""
+        if 0 <= row < len(self._left) and self.unsaved is not None:
+            self.unsaved.accept()
+            self._session.recover(self._left[row])
+            others = len(self._session.recoverable())
+            more = (
+                f" {others} more unsaved document{'s' * (others != 1)} stay kept for the next start." if others else ""
+            )
+            self.say(f"Recovered: {self._left[row].name}; it is not saved yet.{more}")
+
+    def _ask_forget(self, row: int) -> None:
+        if 0 <= row < len(self._left):
+            left = self._left[row]
+            words = f"{_line(left)}\n\nWhat is thrown away can not be brought back."
+            self.ask("Throw unsaved work away?", words, [("Throw it away", partial(self._forget, left))], "warning")
+
+    def _forget(self, left: Recovered) -> None:
+        self._session.forget(left)
+        self._left = self._session.recoverable()
+        if self.unsaved is not None:
+            self.unsaved.show_work([_line(each) for each in self._left])
 
     def fill_recent(self, files: Files) -> None:
         """The menu of programs opened last."""
@@ -187,3 +220,16 @@ class Desk(QObject):
         from codegen.rescale import with_setup
 
         self._session.set_document(with_setup(self._session.document, setup, keep), "Change setup")
+
+
+def _line(left: Recovered) -> str:
+    """ "cutter.tlp – 22.11.2026 17:05 – 12 steps – in /home/me/programs"."""
+    steps = sum(1 for _ in left.document.program.steps())
+    parts = [left.name, f"{left.when:%d.%m.%Y %H:%M}", f"{steps} step{'s' * (steps != 1)}"]
+    if left.original:
+        parts.append(f"in {Path(left.original).parent}")
+        if not left.is_newer_than_file():
+            parts.append("the file was saved later")
+    else:
+        parts.append("never saved")
+    return " – ".join(parts)

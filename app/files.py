@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QBoxLayout, QMainWindow
 
+from app.file_bar import FileBar
 from app.run import Ask
 from app.session import ChangedOnDisk, NoPath, Session
 from app.settings import Settings
-from codegen.files import FileUnreadable
+from codegen.files import FileUnreadable, load
+from codegen.generate import generate
 from widgets.parts import files as choose
+
+if TYPE_CHECKING:
+    from widgets.terminal.code_window import CodeWindow
 
 MOST_RECENT = 10
 
@@ -23,9 +30,18 @@ class Files(QObject):
     said = Signal(str)
     recent_changed = Signal()
 
-    def __init__(self, session: Session, settings: Settings, ask: Ask, parent: QWidget) -> None:
+    def __init__(self, session: Session, settings: Settings, ask: Ask, parent: QMainWindow) -> None:
         super().__init__(parent)
         self._session, self._settings, self._ask, self._window = session, settings, ask, parent
+        self.bar = FileBar()
+        self.comparison: CodeWindow | None = None
+        centre = parent.centralWidget().layout()
+        assert isinstance(centre, QBoxLayout)
+        centre.insertWidget(0, self.bar)
+        self.bar.reload.connect(self.reload)
+        self.bar.compare.connect(self.compare)
+        self.bar.save_as.connect(lambda: self.save_as())
+        session.disk_changed.connect(self._show_disk)
 
     def new(self) -> None:
         """An empty program, after asking about unsaved work."""
@@ -46,6 +62,43 @@ class Files(QObject):
             self._ask("The program can not be opened", _sentence(error, path), (), "problem")
             return
         self._remember(path)
+        newer = [left for left in self._session.recoverable() if left.belongs_to(path) and left.is_newer_than_file()]
+        if newer:
+            left = newer[0]
+            words = f"Unsaved work on {left.name} ({left.when:%d.%m.%Y %H:%M}) is newer than the file. It is kept."
+            answers = (
+                ("Recover it", partial(self._session.recover, left)),
+                ("Throw it away", partial(self._session.forget, left)),
+            )
+            self._ask("Recover unsaved work?", words, answers, "file")
+
+    def reload(self) -> None:
+        """The file as it is on disk now; what was open stays within reach of Undo."""
+        try:
+            self._session.revert()
+        except (FileUnreadable, OSError) as error:
+            self._ask("The file can not be reloaded", _sentence(error, self._session.path), (), "problem")
+            return
+        if self._session.path is not None:
+            self.said.emit(f"Reloaded: {self._session.path.name}")
+
+    def compare(self) -> None:
+        """The code of the file beside the code of the open program."""
+        path = self._session.path
+        if path is None:
+            return
+        try:
+            document = load(path)
+        except (FileUnreadable, OSError) as error:
+            self._ask("The file can not be compared", _sentence(error, path), (), "problem")
+            return
+        from widgets.terminal.code_window import CodeWindow
+
+        code = generate(document).text
+        self.comparison = CodeWindow(f"{path.name} on disk", code, self._session.listing.text, self._window, "file")
+        if code == self._session.listing.text and document != self._session.document:
+            self.comparison.add_words("The setup, comments or names differ.")
+        self.comparison.show()
 
     def save(self, then: Callable[[], None] | None = None) -> None:
         """Saves; without a name it asks for one first."""
@@ -85,6 +138,10 @@ class Files(QObject):
         words = f"“{self._session.title.rstrip('*')}” has changes that are not saved."
         answers = (("Save", lambda: self.save(lambda: go_on() and None)), ("Do not save", lambda: go_on() and None))
         self._ask(title, words, answers, "warning")
+
+    def _show_disk(self) -> None:
+        path = self._session.path
+        self.bar.show_disk(self._session.on_disk, path.name if path is not None else "", self._session.dirty)
 
     @property
     def recent(self) -> list[Path]:
@@ -134,5 +191,5 @@ class Files(QObject):
 def _sentence(error: Exception, path: Path | None) -> str:
     if isinstance(error, OSError) and error.strerror:
         return f"{path}: {error.strerror}."
-    sentence = str(error)
-    return sentence if path is None or path.name in sentence else f"{path}: {sentence}"
+    said = str(error).rstrip(".")
+    return f"{said}." if path is None or path.name in said else f"{path}: {said}."

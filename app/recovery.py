@@ -27,6 +27,22 @@ class Recovered:
     document: Document
     fingerprint: str = ""  # of the file the work began with
 
+    @property
+    def name(self) -> str:
+        """As a person knows it: its file, else the program's own name."""
+        return Path(self.original).name if self.original else self.document.program.name or "a new program"
+
+    def belongs_to(self, path: Path) -> bool:
+        """Whether it is unsaved work on that file."""
+        return bool(self.original) and Path(self.original).resolve() == path.resolve()
+
+    def is_newer_than_file(self) -> bool:
+        """Whether the file was not written after this work was kept."""
+        try:
+            return datetime.fromtimestamp(Path(self.original).stat().st_mtime) <= self.when
+        except OSError:
+            return True
+
 
 class Recovery:
     """The recovery file of this session; its lock tells other sessions that we are alive."""
@@ -38,13 +54,13 @@ class Recovery:
 
     def write(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
         """Keeps `document`; the former copy stays until the new one is complete on disk."""
-        kept = {
-            "original": str(original or ""),
-            "fingerprint": fingerprint,
-            "when": now.isoformat(),
-            "document": dumps(document),
-        }
-        write_whole(self.file, json.dumps(kept))
+        write_whole(self.file, _kept(document, original, now, fingerprint))
+
+    def set_aside(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
+        """Keeps unsaved work that makes room for other work, among what is found later."""
+        file, lock = _free(self.folder)
+        write_whole(file, _kept(document, original, now, fingerprint))
+        lock.unlock()
 
     def clear(self) -> None:
         """Nothing is unsaved."""
@@ -76,6 +92,11 @@ class Recovery:
                 yield Recovered(file, kept["original"], when, loads(kept["document"]), fingerprint)
             except (OSError, ValueError, KeyError, TypeError, FileUnreadable):
                 continue  # half a file of a crash while writing: the one before it was already replaced
+
+
+def _kept(document: Document, original: Path | None, now: datetime, fingerprint: str) -> str:
+    kept = {"original": str(original or ""), "fingerprint": fingerprint, "when": now.isoformat()}
+    return json.dumps({**kept, "document": dumps(document)})
 
 
 def write_whole(path: Path, text: str) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import hashlib
 import time
 from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 from pathlib import Path
 
-from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
+from app.disk import Disk, FileOnDisk
 from app.insertion import is_open_body, is_there, refusal_of, takes_new_steps
 from app.recovery import Recovered, Recovery
 from codegen import files
@@ -53,7 +53,7 @@ class Session(QObject):
     history_changed = Signal()
     replaced = Signal()  # another document was begun: new, opened, recovered
     insertion_changed = Signal()
-    changed_on_disk = Signal(str)
+    disk_changed = Signal()  # the file is not as it was, or is again
     autosave_failed = Signal(str)
 
     def __init__(
@@ -70,16 +70,14 @@ class Session(QObject):
         self._clock, self._now = clock, now
         self.history = History(document if document is not None else Document())
         self._saved: Document = self.document
-        self.path: Path | None = None
-        self._fingerprint = ""
+        self._file = FileOnDisk(self)
+        self._file.changed.connect(self.disk_changed)
         self._listing: tuple[Document, Listing] | None = None
         self.open_body: str | None = None  # the repeat that new steps go into
         self.before: str | None = None  # the step that new steps go in front of
         self._recovery = Recovery(recovery_folder) if recovery_folder is not None else None
         self._autosave = QTimer(self, singleShot=True, interval=autosave_ms)
         self._autosave.timeout.connect(self.autosave_now)
-        self._watcher = QFileSystemWatcher(self)
-        self._watcher.fileChanged.connect(self._file_changed)
 
     # ---- what is open
 
@@ -98,6 +96,16 @@ class Session(QObject):
     def dirty(self) -> bool:
         """Whether there is anything that the file does not have."""
         return self.document is not self._saved and self.document != self._saved
+
+    @property
+    def path(self) -> Path | None:
+        """The file it was opened from or saved to."""
+        return self._file.path
+
+    @property
+    def on_disk(self) -> Disk:
+        """Whether somebody else has changed or removed the file."""
+        return self._file.state
 
     @property
     def title(self) -> str:
@@ -280,7 +288,7 @@ class Session(QObject):
     def open(self, path: Path) -> None:
         """Opens a program; raises FileUnreadable and leaves everything as it was."""
         document = files.load(path)
-        self._start(document, path, saved=True)
+        self._start(document, path.absolute(), saved=True)
 
     def open_copy(self, path: Path) -> None:
         """Opens an example: it has no file of its own, so Save asks for a name; raises FileUnreadable."""
@@ -290,7 +298,7 @@ class Session(QObject):
         """Writes the file; refuses when it has never been named, or when somebody else has changed it."""
         if self.path is None:
             raise NoPath("The program has no file yet")
-        if not overwrite and self.path.exists() and _fingerprint(self.path) != self._fingerprint:
+        if not overwrite and self._file.look() is Disk.CHANGED:
             raise ChangedOnDisk(f"{self.path.name} was changed by another program since it was opened")
         self._write(self.path)
 
@@ -305,7 +313,8 @@ class Session(QObject):
         if self.path is not None:
             document = files.load(self.path)
             self.set_document(document, f"Reload {self.path.name}")
-            self._saved, self._fingerprint = self.document, _fingerprint(self.path)
+            self._saved = self.document
+            self._file.follow(self.path)
             self._after_save()
 
     # ---- unsaved work
@@ -317,8 +326,10 @@ class Session(QObject):
     def recover(self, recovered: Recovered) -> None:
         """Opens what was left behind; it stays unsaved, under its old name."""
         original = Path(recovered.original) if recovered.original else None
+        if self.dirty and self._recovery is not None:
+            self._recovery.set_aside(self.document, self.path, self._now(), self._file.fingerprint)
         self._start(recovered.document, original, saved=False)
-        self._fingerprint = recovered.fingerprint  # of the file the work began with: a newer one is asked about
+        self._file.follow(original, recovered.fingerprint)  # what the work began with: a newer file is asked about
         self.autosave_now()
         self.forget(recovered)
 
@@ -334,7 +345,7 @@ class Session(QObject):
             return
         try:
             if self.dirty:
-                self._recovery.write(self.document, self.path, self._now(), self._fingerprint)
+                self._recovery.write(self.document, self.path, self._now(), self._file.fingerprint)
             else:
                 self._recovery.clear()
         except OSError as failure:
@@ -374,45 +385,23 @@ class Session(QObject):
     def _start(self, document: Document, path: Path | None, *, saved: bool) -> None:
         old = self.document
         self.history = History(document)
-        self.path = path
-        self._fingerprint = _fingerprint(path) if path is not None and path.exists() else ""
         self._saved = document if saved else Document()
         self.open_body = self.before = None
-        self._watch()
+        self._file.follow(path)
         self.replaced.emit()
         self.document_changed.emit(old, document)
         self.insertion_changed.emit()
         self._after_save()
 
     def _write(self, path: Path) -> None:
-        self._unwatch()
         files.save(path, self.document)
-        self.path, self._saved, self._fingerprint = path, self.document, _fingerprint(path)
-        self._watch()
+        self._saved = self.document
+        self._file.follow(path.absolute())
         self._after_save()
 
     def _after_save(self) -> None:
         self.autosave_now()
         self.history_changed.emit()
-
-    def _watch(self) -> None:
-        self._unwatch()
-        if self.path is not None and self.path.exists():
-            self._watcher.addPath(str(self.path))
-
-    def _unwatch(self) -> None:
-        if self._watcher.files():
-            self._watcher.removePaths(self._watcher.files())
-
-    def _file_changed(self, name: str) -> None:
-        if self.path is None or Path(name) != self.path:
-            return
-        if not self.path.exists():
-            self._fingerprint = ""
-            self.changed_on_disk.emit(name)
-        elif _fingerprint(self.path) != self._fingerprint:
-            self.changed_on_disk.emit(name)
-        self._watch()
 
     def _words_for(self, ids: Collection[str]) -> str:
         names = list(ids)
@@ -425,7 +414,3 @@ def _titles(instructions: Sequence[Instruction]) -> str:
 
 def _count(number: int) -> str:
     return f"{number} step" if number == 1 else f"{number} steps"
-
-
-def _fingerprint(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()

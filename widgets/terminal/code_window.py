@@ -1,4 +1,4 @@
-"""Code read from the controller, and where it differs from the open program."""
+"""Code read from the controller or a file, and where it differs from the open program."""
 
 from __future__ import annotations
 
@@ -25,19 +25,23 @@ class CodeWindow(QDialog):
 
     save_wanted = Signal(str)
 
-    def __init__(self, title: str, text: str, own: str, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, title: str, text: str, own: str, parent: QWidget | None = None, where: str = "controller"
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
         self.setModal(False)
         self.text = text
         theirs, mine = text.splitlines(), own.splitlines()
         same = [line.strip() for line in theirs if line.strip()] == [line.strip() for line in mine if line.strip()]
-        self.words = QLabel(_words(theirs, same))
-        self.code, self.differences = _view("Code in the controller"), _view("Differences")
+        self._where = where
+        self.words = QLabel(_words(theirs, same, where))
+        self.words.setWordWrap(True)
+        self.code, self.differences = _view(f"Code in the {where}"), _view("Differences")
         self.code.setPlainText("\n".join(f"{number:4}  {line}" for number, line in enumerate(theirs)))
         self._show_differences(mine, theirs)
         tabs = QTabWidget()
-        tabs.addTab(self.code, "In the controller")
+        tabs.addTab(self.code, f"In the {where}")
         if not same:
             tabs.addTab(self.differences, "Compared with the open program")
         self.save, self.shut = QPushButton("Save as code…"), QPushButton("Close")
@@ -56,20 +60,26 @@ class CodeWindow(QDialog):
         column.addLayout(foot)
         self.resize(640, 560)
 
+    def add_words(self, sentence: str) -> None:
+        """What else there is to say."""
+        self.words.setText(f"{self.words.text()} {sentence}")
+
     def _show_differences(self, mine: list[str], theirs: list[str]) -> None:
         cursor = QTextCursor(self.differences.document())
         for line in difflib.ndiff(mine, theirs):
             if line.startswith("?"):
                 continue
-            words = {"-": "only in the open program   ", "+": "only in the controller     "}.get(line[0], " " * 27)
+            words = {"-": "only in the open program   ", "+": f"only in the {self._where}".ljust(27)}.get(
+                line[0], " " * 27
+            )
             shape = QTextCharFormat()
             shape.setForeground(look().colour({"-": "group_flow", "+": "accent"}.get(line[0], "quiet")))
             cursor.insertText(f"{words}{line[2:]}\n", shape)
 
 
-def _words(lines: list[str], same: bool) -> str:
+def _words(lines: list[str], same: bool, where: str) -> str:
     if not lines:
-        return "There is no program in the controller."
+        return f"There is no program in the {where}."
     return f"{len(lines)} lines. " + (
         "They are the code of the open program." if same else "They differ from the open program."
     )

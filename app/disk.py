@@ -1,0 +1,80 @@
+"""The file a program came from: whether somebody else has changed or removed it meanwhile."""
+
+from __future__ import annotations
+
+import hashlib
+from enum import Enum
+from pathlib import Path
+
+from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+
+SETTLE_MS = 150  # writers work in several strokes: looked at when they pause
+
+
+class Disk(Enum):
+    """How the file stands to what was read from it, or written to it, last."""
+
+    SAME = "as it was read or written"
+    CHANGED = "changed by another program"
+    GONE = "not there any more"
+
+
+class FileOnDisk(QObject):
+    """Watches one file and its folder (editors put a new file in the place of the old one); `changed` says so once."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.path: Path | None = None
+        self.fingerprint = ""
+        self.state = Disk.SAME
+        self._seen = ""
+        self._settle = QTimer(self, singleShot=True, interval=SETTLE_MS)
+        self._settle.timeout.connect(self.look)
+        self._watcher = QFileSystemWatcher(self)
+        self._watcher.fileChanged.connect(lambda _: self._settle.start())
+        self._watcher.directoryChanged.connect(lambda _: self._settle.start())
+
+    def follow(self, path: Path | None, known: str | None = None) -> None:
+        """From now on this file; `known`: the fingerprint it should have (else the one that it has now)."""
+        self.path = path
+        now = fingerprint_of(path) if path is not None else ""
+        self.fingerprint = now if known is None else known
+        self._seen, self.state = now, self._judge(now)
+        self._watch()
+        self.changed.emit()
+
+    def look(self) -> Disk:
+        """Looks now; tells when it is not as before."""
+        if self.path is not None:
+            now = fingerprint_of(self.path)
+            if now != self._seen:
+                self._seen, self.state = now, self._judge(now)
+                self.changed.emit()
+            self._watch()
+        return self.state
+
+    def _judge(self, now: str) -> Disk:
+        if self.path is None or now == self.fingerprint:
+            return Disk.SAME
+        return Disk.CHANGED if now else Disk.GONE
+
+    def _watch(self) -> None:
+        """A file that was replaced has to be watched anew."""
+        old = [*self._watcher.files(), *self._watcher.directories()]
+        wanted = [] if self.path is None else [self.path.parent, *([self.path] if self._seen else [])]
+        names = [str(each) for each in wanted if each.exists()]
+        if sorted(old) != sorted(names):
+            if old:
+                self._watcher.removePaths(old)
+            if names:
+                self._watcher.addPaths(names)
+
+
+def fingerprint_of(path: Path) -> str:
+    """Of what is in the file; empty when it can not be read."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return ""

@@ -1,0 +1,59 @@
+"""All unsaved work that was left behind: one line each, to recover or to throw away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QListWidget, QPushButton, QVBoxLayout, QWidget
+
+WORDS = (
+    "This work was not saved when the program ended unexpectedly. Recover opens it, still unsaved; "
+    "the rest stays in this list and is offered again at the next start."
+)
+
+
+class UnsavedWork(QDialog):
+    """Not modal. What is chosen goes up by its place in the list; the owner shows what is left."""
+
+    recover_wanted = Signal(int)
+    forget_wanted = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Recover unsaved work?")
+        self.setModal(False)
+        heading, words = QLabel("Recover unsaved work?"), QLabel(WORDS)
+        heading.setProperty("role", "title")
+        words.setWordWrap(True)
+        self.list = QListWidget()
+        self.list.setAccessibleName("Unsaved work, newest first")
+        self.recover, self.forget, self.later = QPushButton("Recover"), QPushButton("Throw away"), QPushButton("Later")
+        self.recover.setProperty("role", "primary")
+        self.recover.setDefault(True)
+        self.forget.setToolTip("Asks first: what is thrown away can not be brought back.")
+        self.recover.clicked.connect(lambda: self.recover_wanted.emit(self.list.currentRow()))
+        self.list.itemActivated.connect(lambda _: self.recover_wanted.emit(self.list.currentRow()))
+        self.forget.clicked.connect(lambda: self.forget_wanted.emit(self.list.currentRow()))
+        self.later.clicked.connect(self.reject)
+        foot = QHBoxLayout()
+        foot.addWidget(self.forget)
+        foot.addStretch(1)
+        foot.addWidget(self.later)
+        foot.addWidget(self.recover)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(24, 24, 24, 16)
+        column.setSpacing(12)
+        for widget in (heading, words, self.list):
+            column.addWidget(widget)
+        column.addLayout(foot)
+        self.resize(640, 360)
+
+    def show_work(self, lines: Sequence[str]) -> None:
+        """What there is, newest first; closes when nothing is left."""
+        row = max(0, min(self.list.currentRow(), len(lines) - 1))
+        self.list.clear()
+        self.list.addItems(list(lines))
+        self.list.setCurrentRow(row)
+        if not lines:
+            self.accept()
