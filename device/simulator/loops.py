@@ -152,7 +152,7 @@ class ThriftyLoop(SampleLoop):
             began = time.perf_counter()
             done += self._loop(state, trace, most)
             self._spent += time.perf_counter() - began
-            if state[layout.TRIPS] > 0.0 or state[layout.EVENTS] != events or trace_full(state):
+            if ended(state, events):
                 break
         return done
 
@@ -169,6 +169,13 @@ class ThriftyLoop(SampleLoop):
             except CompilerMissing:
                 return False
         return self.compiled
+
+
+def ended(state: Vector, events: float) -> bool:
+    """The loop had a reason to end after its last sample."""
+    if state[layout.TRIPS] > 0.0 or state[layout.EVENTS] != events or state[layout.GUARD_BROKEN] != 0.0:
+        return True
+    return trace_full(state)
 
 
 def trace_full(state: Vector) -> bool:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from enum import IntFlag
+from typing import TypeAlias
 
 import numpy
 
@@ -24,6 +25,7 @@ from device.simulator.watches import Watch, arm, release
 __all__ = ["Event", "Motion", "Register", "Watch"]
 
 TM_UNITS_PER_SECOND = 1_024_000.0
+Range: TypeAlias = tuple[int, float, float]  # slot, lowest, highest value
 
 
 class Event(IntFlag):
@@ -100,7 +102,7 @@ class Motion(Moves, Outside):
     def watch(self, kind: Watch, axis: int = 0, value: float = 0.0) -> int:
         """Arms a watch and tests it at once; `run` returns after the sample in which it trips."""
         number = arm(self._state, kind, axis, value)
-        events.test_watches(self._state)
+        events.test_watch(self._state, layout.WATCH + layout.WATCH_STRIDE * number)
         return number
 
     def tripped(self, number: int) -> bool:
@@ -110,6 +112,39 @@ class Motion(Moves, Outside):
     def drop(self, number: int) -> None:
         """Frees a watch; a tripped AD or AR marks the place from which the next AR counts."""
         release(self._state, number)
+
+    def guard(self, ranges: Collection[Range]) -> bool:
+        """`run` returns after the sample in which one of these slots leaves its range; False: they are too many."""
+        if len(ranges) > layout.MAXIMUM_GUARDS:
+            return False
+        for number, item in enumerate(ranges):
+            for offset, value in enumerate(item):
+                self._state[layout.GUARD + layout.GUARD_STRIDE * number + offset] = float(value)
+        self._state[layout.GUARDS] = float(len(ranges))
+        return True
+
+    @property
+    def guard_broken(self) -> bool:
+        """A guarded slot has left its range."""
+        return self._state[layout.GUARD_BROKEN] != 0.0
+
+    def drop_guards(self) -> None:
+        """Leaves no trace of them: a state does not tell how it was come by."""
+        for slot in range(layout.GUARD, layout.GUARD + layout.GUARD_STRIDE * int(self._state[layout.GUARDS])):
+            self._state[slot] = 0.0
+        self._state[layout.GUARDS] = self._state[layout.GUARD_BROKEN] = 0.0
+
+    @property
+    def has_events(self) -> bool:
+        """Something has happened that nobody has taken yet."""
+        return self._state[layout.EVENTS] != 0.0
+
+    def forget_events(self) -> None:
+        """Whatever has happened is known."""
+        if self._state[layout.EVENTS] != 0.0:
+            for axis in range(self.axes):
+                self._state[axis_base(axis) + layout.EVENT] = 0.0
+            self._state[layout.EVENTS] = 0.0
 
     def take_events(self) -> list[tuple[Event, int]]:
         """What has happened since the last call, and forgets it."""

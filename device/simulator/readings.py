@@ -163,3 +163,7 @@ class Readings:
             (0, not self.motor_on(axis)),
         )
         return sum(1 << bit for bit, on in bits if on)
+
+    def slot(self, place: int) -> float:
+        """What a slot of the motion holds."""
+        return self._state[place]

@@ -1,4 +1,4 @@
-"""The end of a sample: distances, in position, and the watches that wait for something."""
+"""The end of a sample: distances, in position, and the watches and guards that wait for something."""
 
 from __future__ import annotations
 
@@ -7,6 +7,10 @@ from device.simulator.kernel.layout import (
     DIRECTION,
     DISTANCE,
     EQUAL,
+    GUARD,
+    GUARD_BROKEN,
+    GUARD_STRIDE,
+    GUARDS,
     IN_POSITION,
     MARK,
     MARK_DISTANCE,
@@ -63,14 +67,29 @@ def holds(value: float, operator: float, wanted: float) -> bool:
     return False
 
 
+def test_watch(S: State, place: int) -> None:
+    """Marks an armed watch one of whose conditions holds."""
+    if holds(S[int(S[place + W_SLOT])], S[place + W_OPERATOR], S[place + W_VALUE]) or holds(
+        S[int(S[place + W_SLOT_2])], S[place + W_OPERATOR_2], S[place + W_VALUE_2]
+    ):
+        S[place + W_STATE] = 2.0
+        S[TRIPS] += 1.0
+
+
 def test_watches(S: State) -> None:
-    """Marks every armed watch one of whose conditions holds."""
+    """Tests every armed watch."""
     place = WATCH
     for _ in range(int(S[WATCHES])):
-        if S[place + W_STATE] == 1.0 and (
-            holds(S[int(S[place + W_SLOT])], S[place + W_OPERATOR], S[place + W_VALUE])
-            or holds(S[int(S[place + W_SLOT_2])], S[place + W_OPERATOR_2], S[place + W_VALUE_2])
-        ):
-            S[place + W_STATE] = 2.0
-            S[TRIPS] += 1.0
+        if S[place + W_STATE] == 1.0:
+            test_watch(S, place)
         place += WATCH_STRIDE
+
+
+def test_guards(S: State) -> None:
+    """Says so when a guarded slot has left its range."""
+    place = GUARD
+    for _ in range(int(S[GUARDS])):
+        value = S[int(S[place])]
+        if value < S[place + 1] or value > S[place + 2]:
+            S[GUARD_BROKEN] = 1.0
+        place += GUARD_STRIDE

@@ -97,7 +97,7 @@ def read_encoders(S: State, A: State, axis: int, moment: int) -> None:
     A[RAW] = raw
     counts = raw * A[ENCODER_SIGN]
     if A[ANALOG_FEEDBACK] != 0.0:
-        counts = float(floor(S[ANALOG_1 + axis] * 204.8 + 0.5))
+        counts = min(float(floor(S[ANALOG_1 + axis] * 204.8 + 0.5)), 2047.0)  # twelve bits (SSC manual l.1797)
     A[COUNTS] = counts
     A[ACTUAL] = counts + A[COUNTS_SHIFT]
     A[COUNTS_BEFORE] = A[HISTORY + moment]

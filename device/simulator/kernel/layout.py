@@ -48,6 +48,7 @@ ANALOG_1 = 24  # eight voltages
     CAM_START,
     CAM_LAST,  # master position of the last sample
 ) = range(32, 44)
+GUARDS, GUARD_BROKEN = range(44, 46)  # guards to look at; 1: one has been left (see GUARD)
 (
     PATH_ACTIVE,  # 1: the sequence runs
     PATH_MOVING,  # 1 until its end is put out
@@ -91,8 +92,13 @@ W_STATE, W_SLOT, W_OPERATOR, W_VALUE, W_SLOT_2, W_OPERATOR_2, W_VALUE_2 = range(
 W_KIND, W_AXIS, W_NUMBER = range(7, 10)  # as the host asked for it
 NOT_LESS, NOT_MORE, EQUAL, NEVER = range(4)
 
+# --- guards: the loop ends after the sample in which a slot has left its range (slot, lowest, highest) ---
+GUARD = WATCH + WATCH_STRIDE * MAXIMUM_WATCHES
+GUARD_STRIDE = 3
+MAXIMUM_GUARDS = 24
+
 # --- one axis ---------------------------------------------------------------------------------------------------------
-AXIS = WATCH + WATCH_STRIDE * MAXIMUM_WATCHES
+AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
 (
     # registers, written by the host
     SPEED_V,

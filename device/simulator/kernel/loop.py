@@ -9,7 +9,7 @@ from __future__ import annotations
 from device.simulator.kernel.cam import advance_cam
 from device.simulator.kernel.commutation import read_halls
 from device.simulator.kernel.contour import advance_contour
-from device.simulator.kernel.events import measure, test_watches
+from device.simulator.kernel.events import measure, test_guards, test_watches
 from device.simulator.kernel.homing import advance_stage
 from device.simulator.kernel.inputs import (
     check_abort,
@@ -27,6 +27,8 @@ from device.simulator.kernel.layout import (
     ENCODER_SIGN,
     EVENTS,
     GEAR_MASTER,
+    GUARD_BROKEN,
+    GUARDS,
     HALL_FIRST,
     INPUTS,
     LOAD_V,
@@ -121,7 +123,7 @@ def run(S: State, trace: State, n: int) -> int:
 
 
 def advance(S: State, trace: State, n: int) -> int:
-    """Runs up to `n` samples and ends after the one in which a watch trips, an event is raised or the trace is full."""
+    """Runs up to `n` samples; ends after one that trips a watch, breaks a guard, raises an event, fills the trace."""
     axes = int(S[AXES])
     count = int(S[SAMPLE])
     S[TRIPS] = 0.0
@@ -136,6 +138,8 @@ def advance(S: State, trace: State, n: int) -> int:
             A = part(S, axis)
             measure(A)
         test_watches(S)
+        if S[GUARDS] > 0.0:
+            test_guards(S)
         if S[TRACE_CAPACITY] > 0.0:
             S[TRACE_COUNTDOWN] -= 1.0
             if S[TRACE_COUNTDOWN] <= 0.0:
@@ -143,6 +147,6 @@ def advance(S: State, trace: State, n: int) -> int:
                 write_trace(S, trace, axes)
                 if S[TRACE_ROWS] >= S[TRACE_CAPACITY]:
                     break
-        if S[TRIPS] > 0.0 or S[EVENTS] != events:
+        if S[TRIPS] > 0.0 or S[EVENTS] != events or S[GUARD_BROKEN] != 0.0:
             break
     return done

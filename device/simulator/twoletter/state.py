@@ -183,6 +183,10 @@ class State:
         """Threads, then ports."""
         return [*self.threads, *self.ports]
 
+    def waiting(self) -> list[Strand]:
+        """Those that wait for something."""
+        return [strand for strand in self.strands() if strand.wait is not None]
+
 
 def fresh(model: Model) -> State:
     """The state before anything is loaded: threads and ports only."""

@@ -6,6 +6,7 @@ from codegen.twoletter.evaluate import EvaluationError
 from device.simulator.times import COMMAND
 from device.simulator.twoletter import behaviour, wire
 from device.simulator.twoletter.behaviour import recording
+from device.simulator.twoletter.idling import Idling
 from device.simulator.twoletter.state import FOREVER, CommandError, NotYet, Port, Strand, Thread, Wait
 from device.simulator.twoletter.unit import Unit
 
@@ -21,6 +22,7 @@ class Interpreter:
 
     def __init__(self, unit: Unit) -> None:
         self.unit = unit
+        self.idling = Idling(unit)
         self._alarmed = True  # a condition of an automatic routine may hold: look after every sample
 
     # -------------------------------------------------------------------- time
@@ -69,23 +71,26 @@ class Interpreter:
         if state.recording.interval:
             due = min(due, unit.clock.tick_of(state.recording.sample))
         for uart in unit.uarts:
-            due = min(due, uart.due_in())
-        for strand in state.strands():
+            if uart.incoming_end is not None:
+                due = min(due, uart.due_in())
+        for strand in state.waiting():
             wait = strand.wait
-            if wait is not None:
-                due = min(due, wait.wake)
-                if wait.kind == "output":
-                    due = min(due, unit.uarts[wait.number - 1].due_out())
+            assert wait is not None
+            if wait.wake < due:
+                due = wait.wake
+            if wait.kind == "output":
+                due = min(due, unit.uarts[wait.number - 1].due_out())
         return max(due, unit.clock.now)
 
     def _settle(self) -> None:
         """Brings ports and waits up to now, and gives the interpreter its next command."""
         unit = self.unit
-        state, now = unit.state, unit.clock.now
+        now = unit.clock.now
         if unit.changed:
             self._alarmed, unit.changed = True, False
-        if 0 <= state.reset_at <= now:
+        if 0 <= unit.state.reset_at <= now:
             unit.finish_reset()
+        state = unit.state
         while state.recording.interval and unit.clock.tick_of(state.recording.sample) <= now:
             recording.take(unit)
         for uart, port in zip(unit.uarts, state.ports, strict=True):
@@ -94,7 +99,7 @@ class Interpreter:
                 wire.take_characters(unit, port)
         if state.comint_due:
             self._call_comint()
-        for strand in state.strands():
+        for strand in state.waiting():
             wait = strand.wait
             if wait is not None and (wait.wake <= now or (wait.kind == "output" and self._has_room(wait))):
                 self.release(strand)
@@ -109,7 +114,9 @@ class Interpreter:
         if state.reset_at >= 0:
             return []
         ready: list[Strand] = [thread for thread in state.threads if thread.running and thread.wait is None]
-        ready += [port for port in state.ports if port.pending is not None and port.wait is None]
+        for port in state.ports:
+            if port.pending is not None and port.wait is None:
+                ready.append(port)
         return ready
 
     # ---------------------------------------------------------------- commands
@@ -155,19 +162,21 @@ class Interpreter:
         try:
             while at <= limit and not unit.changed:
                 if at >= next_sample:
-                    if self._alarmed:
-                        if self._sync(at):
-                            break
-                    elif clock.sync(at):
-                        clock.now = max(clock.now, clock.tick)
-                        if self._after_sample() or clock.tick + clock.period <= at:
-                            break
+                    if self._overtaken(at):
+                        break
                     next_sample = clock.tick + clock.period
                 thread = threads[index]
-                clock.now = at
-                thread.pc = ops[thread.pc](thread)
+                clock.now, pc = at, thread.pc
+                thread.pc = following = ops[pc](thread)
                 at += COMMAND
                 index = index + 1 if index + 1 < count else 0
+                if following <= pc and self.idling.due() and not unit.changed:
+                    left_out, over = self._leap(threads, index, at, limit, watched=watched)
+                    at, index = at + left_out * COMMAND, (index + left_out) % count
+                    thread = threads[index - 1]
+                    if over:
+                        break
+                    next_sample = clock.tick + clock.period if watched else FOREVER
         except (CommandError, EvaluationError) as refusal:
             unit.fail(thread, refusal.code, thread.pc)
             at += COMMAND
@@ -177,6 +186,29 @@ class Interpreter:
             at += COMMAND
         state.command_at, state.turn = at, thread.number
         self._stall(thread)
+
+    def _overtaken(self, at: int) -> bool:
+        """Takes the samples before the command at tick `at`; True when one of them comes first."""
+        clock = self.unit.clock
+        if self._alarmed:
+            return self._sync(at)
+        if not clock.sync(at):
+            return False
+        clock.now = max(clock.now, clock.tick)
+        return self._after_sample() or clock.tick + clock.period <= at
+
+    def _leap(self, threads: list[Thread], index: int, at: int, limit: int, *, watched: bool) -> tuple[int, bool]:
+        """Leaves out commands of threads that only wait: how many, and whether a sample comes before the next one."""
+        if watched and self._alarmed:
+            return 0, False
+        clock, leap = self.unit.clock, self.idling.leap(threads, index, at, limit, watched=watched)
+        at += leap.commands * COMMAND
+        if leap.commands:
+            clock.now = at - COMMAND
+        if not leap.tripped:
+            return leap.commands, False
+        clock.now = max(clock.now, clock.tick)
+        return leap.commands, self._after_sample() or clock.tick + clock.period <= at
 
     def _stall(self, strand: Strand) -> None:
         """The output FIFO is over-full: whoever sent last waits for room (dmc-1412-1414.txt l.1335)."""
@@ -213,11 +245,13 @@ class Interpreter:
         if thread.traced or (line == thread.line and not first):
             return True
         thread.line, thread.traced = line, True
-        if unit.records.on_trace is not None:
-            unit.records.on_trace(unit.clock.now, thread.number, line)
-        if unit.state.settings["TR"] and line < len(unit.code.lines):
-            unit.unsolicited(1, f"{line:03d} {unit.code.lines[line]}\r\n")
-            self._stall(thread)
+        labels = [number for number in range(line) if first and unit.code.start_of[number] == thread.pc]
+        for number in (*labels, line):  # a line of labels only is passed on the way
+            if unit.records.on_trace is not None:
+                unit.records.on_trace(unit.clock.now, thread.number, number)
+            if unit.state.settings["TR"] and number < len(unit.code.lines):
+                unit.unsolicited(1, f"{number:03d} {unit.code.lines[number]}\r\n")
+                self._stall(thread)
         return thread.wait is None
 
     def _port_command(self, port: Port) -> None:
@@ -238,10 +272,18 @@ class Interpreter:
         if port.mode != "command" or port.pending is None:
             self._end_line(port)
             return
-        self.unit.reply(port.number, wire.ACCEPTED)
-        self.unit.stalled = 0
+        unit = self.unit
+        last = port.position + 1 >= len(unit.line_ops(port.pending))
+        if last or unit.profile.prompt_per_command:
+            unit.reply(port.number, wire.ACCEPTED)
+        if unit.profile.error_code_cleared_by_good_command:
+            unit.state.error_code = 0
+        unit.stalled = 0
+        self._next_of_line(port)
+
+    def _next_of_line(self, port: Port) -> None:
         port.position += 1
-        if port.position >= len(self.unit.line_ops(port.pending)):
+        if port.pending is None or port.position >= len(self.unit.line_ops(port.pending)):
             self._end_line(port)
 
     def _end_line(self, port: Port) -> None:
@@ -280,9 +322,13 @@ class Interpreter:
         return strand.wait is None
 
     def _refuse(self, port: Port, code: int) -> None:
-        self.unit.state.error_code = code
+        profile = self.unit.profile
+        self.unit.state.error_code = profile.code(code)
         self.unit.reply(port.number, wire.REFUSED)
-        self._end_line(port)
+        if profile.error_ends_line:
+            self._end_line(port)
+        else:
+            self._next_of_line(port)
 
     def _check_position(self, wait: Wait) -> None:
         """MC gave up after TW: stop code 99, and #MCTIME (dmc-1412-1414.txt l.3049)."""
@@ -297,7 +343,7 @@ class Interpreter:
         """Whether the motion can end a wait or call a routine, so that it must keep up with the commands."""
         unit = self.unit
         state = unit.state
-        for strand in state.strands():
+        for strand in state.waiting():
             if strand.wait is not None and strand.wait.watches:
                 return True
         if unit.routines and state.threads[0].running:
@@ -312,12 +358,12 @@ class Interpreter:
         """Ends waits whose watches have tripped and calls routines; True when anything happened."""
         unit = self.unit
         motion, happened = unit.clock.motion, False
-        for strand in unit.state.strands():
+        for strand in unit.state.waiting():
             wait = strand.wait
             if wait is not None and wait.watches and all(motion.tripped(watch) for watch in wait.watches):
                 self.release(strand)
                 happened = True
-        motion.take_events()
+        motion.forget_events()
         self._alarmed = False
         if unit.routines and unit.state.threads[0].running:
             happened |= self._call_routines()
@@ -351,7 +397,7 @@ class Interpreter:
         for due, label in ((at_limit, "LIMSWI"), (beyond, "POSERR"), (low, "ININT")):
             if due and self._may_call(main, label):
                 if label == "ININT":
-                    state.interrupt_armed = False
+                    state.interrupt_armed = not unit.profile.interrupt_once
                 unit.call(main, label, main.pc)
                 return True
         return False

@@ -167,7 +167,7 @@ def test_bare_stop_from_the_port_ends_programs(model: str) -> None:
 def test_trace() -> None:
     bench = Bench()
     bench.run("#A\nTR1\nV=1;W=2\n#B\nTR0\nEN")
-    assert bench.texts() == ["002 V=1;W=2", "004 TR0"]
+    assert bench.texts() == ["002 V=1;W=2", "003 #B", "004 TR0"]  # each line (dmc-1412-1414.txt l.2672)
 
 
 def test_input_takes_numbers_and_texts_from_port_one() -> None:

@@ -1,0 +1,281 @@
+"""What a condition looks at, and in which range of it the condition can not change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from codegen.twoletter.evaluate import Evaluator, compile_expression
+from codegen.twoletter.fixed import HIGHEST, LOWEST, ONE
+from codegen.twoletter.functions import PURE
+from codegen.twoletter.nodes import (
+    Binary,
+    Element,
+    Expression,
+    Function,
+    Group,
+    Keyword,
+    Negative,
+    Number,
+    Operand,
+    String,
+    Variable,
+)
+from device.simulator.kernel import layout
+from device.simulator.kernel.layout import axis_base
+from device.simulator.twoletter.behaviour import READS
+from device.simulator.twoletter.behaviour.registers import STORES
+from device.simulator.twoletter.state import AXES, FOREVER, Thread
+
+if TYPE_CHECKING:
+    from device.simulator.motion import Motion, Range
+    from device.simulator.twoletter.unit import Unit
+
+
+class Restless(Exception):
+    """What is looked at may change with every command."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """Where a condition looks from: the controller, and the threads that have commands carried out."""
+
+    unit: Unit
+    threads: Sequence[Thread]
+
+
+Look: TypeAlias = Callable[["Seen", "set[Range]"], int]
+"""Adds the ranges within which a condition stays what it is; answers the tick that may change it."""
+
+# Operands that are a slot of their axis: comparing them with something is comparing the slot.
+NUMBERS: Final = {
+    "TP": layout.ACTUAL,
+    "DP": layout.ACTUAL,
+    "RP": layout.REFERENCE,
+    "TE": layout.ERROR,
+    "TD": layout.AUXILIARY,
+    "DE": layout.AUXILIARY,
+}
+# Operands that change only when one of these slots of their axis does.
+SLOTS: Final[dict[str, tuple[int, ...]]] = {
+    **{name: (slot,) for name, slot in NUMBERS.items()},
+    "TD": (layout.AUXILIARY, layout.STEPS),
+    "DE": (layout.AUXILIARY, layout.STEPS),
+    "BG": (layout.MOVING,),
+    "SC": (layout.STOP_CODE,),
+    "MO": (layout.MOTOR_ON,),
+    "HM": (layout.HOME_LEVEL,),
+    "LF": (layout.FORWARD_LEVEL,),
+    "_LF": (layout.FORWARD_LEVEL,),
+    "LR": (layout.REVERSE_LEVEL,),
+    "_LR": (layout.REVERSE_LEVEL,),
+    "AL": (layout.LATCH_ARMED,),
+    "RL": (layout.LATCHED,),
+    "GR": (layout.GEAR_RATIO,),
+    "TS": (
+        layout.MOVING,
+        layout.ERROR_HIGH,
+        layout.MOTOR_ON,
+        layout.FORWARD_LEVEL,
+        layout.REVERSE_LEVEL,
+        layout.HOME_LEVEL,
+        layout.LATCH_ARMED,
+    ),
+}
+# The same for what there is once.
+COMMON: Final[dict[str, tuple[int, ...]]] = {
+    "CM": (layout.CONTOUR_BUFFERED,),
+    "CS": (layout.PATH_OUT_HEAD,),
+    "LM": (
+        layout.PATH_FINISHED,
+        layout.PATH_TAIL,
+        layout.PATH_HEAD,
+        layout.PATH_ACTIVE,
+        layout.PATH_OUT_HEAD,
+    ),
+}
+# Operands that only commands, characters and the outside change: none of them come while all threads wait.
+COMMANDED: Final = frozenset(
+    {"OP", "TC", "TB", "ED", "DA", "DM", "DL", "UL", "BN", "RC", "RD", "EM", "EP", "GN", "ZR", "DT", "IP", "AB", "HX"}
+    | {"ZS"}
+    | (STORES.keys() - READS.keys())
+)
+KEYWORDS: Final = frozenset({"P1CH", "P2CH", "P1CD", "P2CD", "F1", "F2", "F3", "F4", "F5"})  # reading changes nothing
+COMPARES: Final = {"<": ">", ">": "<", "=": "=", "<=": ">=", ">=": "<=", "<>": "<>"}  # as seen from the other side
+
+
+def looks(expression: Expression, unit: Unit) -> tuple[Look, ...] | None:
+    """Everything a condition depends on; None for what can not be waited for."""
+    match expression:
+        case Number() | String() | Variable():
+            return ()
+        case Element(_, index):
+            return None if index is None else looks(index, unit)
+        case Keyword(name):
+            return () if name in KEYWORDS else None
+        case Group(inner) | Negative(inner):
+            return looks(inner, unit)
+        case Function(name, argument):
+            fixed = name in PURE or name in ("OUT", "AN") or (name == "IN" and not unit.hall_mask)
+            return looks(argument, unit) if fixed else None
+        case Operand(name, suffix):
+            return _operand(name, suffix, unit)
+        case Binary(operator, left, right):
+            return _comparison(operator, left, right, unit) or _both(left, right, unit)
+    return None
+
+
+def _both(left: Expression, right: Expression, unit: Unit) -> tuple[Look, ...] | None:
+    one, other = looks(left, unit), looks(right, unit)
+    return None if one is None or other is None else (*one, *other)
+
+
+def _operand(name: str, suffix: str, unit: Unit) -> tuple[Look, ...] | None:
+    if name == "TC" and unit.profile.error_code_cleared_by_operand:
+        return None
+    if name in COMMANDED or (name == "TI" and not unit.hall_mask):
+        return ()
+    if name == "XQ":
+        return (_line_look(suffix),)
+    if suffix == "S" and name == "BG":
+        return (_still((layout.PATH_MOVING,)),)
+    if name in COMMON:
+        return (_still(COMMON[name]),)
+    axis = AXES.find(suffix or "X")
+    if name not in SLOTS or not 0 <= axis < len(unit.model.axes):
+        return None
+    return (_still(tuple(axis_base(axis) + slot for slot in SLOTS[name])),)
+
+
+def _line_look(suffix: str) -> Look:
+    """_XQn is the line of a thread: it may change while that thread has commands carried out."""
+
+    def look(seen: Seen, ranges: set[Range]) -> int:
+        if any(str(thread.number) == (suffix or "0") for thread in seen.threads):
+            raise Restless
+        return FOREVER
+
+    return look
+
+
+def _still(slots: tuple[int, ...]) -> Look:
+    """None of these slots changes."""
+
+    def look(seen: Seen, ranges: set[Range]) -> int:
+        motion = seen.unit.motion
+        for slot in slots:
+            value = motion.slot(slot)
+            ranges.add((slot, value, value))
+        return FOREVER
+
+    return look
+
+
+# ------------------------------------------------------------- comparisons
+
+
+@dataclass(frozen=True, slots=True)
+class Ramp:
+    """sign × a changing number + what the terms come to, all in 1/65536; of it the magnitude where `folded`."""
+
+    name: str  # of an operand, or TIME
+    axis: int
+    sign: int = 1
+    terms: tuple[tuple[int, Evaluator], ...] = ()
+    folded: bool = False
+
+    def turned(self) -> Ramp:
+        return Ramp(self.name, self.axis, -self.sign, tuple((-sign, term) for sign, term in self.terms))
+
+    def shifted(self, sign: int, term: Evaluator) -> Ramp:
+        return Ramp(self.name, self.axis, self.sign, (*self.terms, (sign, term)))
+
+
+def ramp(expression: Expression, unit: Unit) -> Ramp | None:
+    """The expression as one changing number with something added or taken off."""
+    match expression:
+        case Keyword("TIME"):
+            return Ramp("TIME", 0)
+        case Operand(name, suffix) if name in NUMBERS:
+            axis = AXES.find(suffix or "X")
+            return Ramp(name, axis) if 0 <= axis < len(unit.model.axes) else None
+        case Group(inner):
+            return ramp(inner, unit)
+        case Negative(inner):
+            found = ramp(inner, unit)
+            return None if found is None or found.folded else found.turned()
+        case Function("ABS", inner):
+            found = ramp(inner, unit)
+            if found is None or found.folded:
+                return None
+            return Ramp(found.name, found.axis, found.sign, found.terms, folded=True)
+        case Binary("+" | "-" as operator, left, right):
+            return _shifted(operator, left, right, unit)
+    return None
+
+
+def _shifted(operator: str, left: Expression, right: Expression, unit: Unit) -> Ramp | None:
+    first, second = ramp(left, unit), ramp(right, unit)
+    sign = 1 if operator == "+" else -1
+    if first is not None and not first.folded and looks(right, unit) == ():
+        return first.shifted(sign, compile_expression(right))
+    if second is not None and not second.folded and looks(left, unit) == ():
+        return (second if sign > 0 else second.turned()).shifted(1, compile_expression(left))
+    return None
+
+
+def _comparison(operator: str, left: Expression, right: Expression, unit: Unit) -> tuple[Look, ...] | None:
+    """A changing number against one that stays; None for any other comparison."""
+    if operator not in COMPARES:
+        return None
+    for moving, still, compares in ((left, right, operator), (right, left, COMPARES[operator])):
+        found = ramp(moving, unit)
+        if found is not None and looks(still, unit) == ():
+            return (_edge(found, compares, compile_expression(still)),)
+    return None
+
+
+def _slot(line: Ramp, motion: Motion) -> int:
+    base, slot = axis_base(line.axis), NUMBERS[line.name]
+    if slot == layout.AUXILIARY and motion.slot(base + layout.STEPPER):
+        slot = layout.STEPS  # TD of a stepper
+    return base + slot
+
+
+def _edge(line: Ramp, operator: str, still: Evaluator) -> Look:
+    def look(seen: Seen, ranges: set[Range]) -> int:
+        names = seen.unit.names
+        offset = sum(sign * term(names) for sign, term in line.terms)
+        place = -1 if line.name == "TIME" else _slot(line, seen.unit.motion)
+        now = seen.unit.sample - seen.unit.state.clock_offset if place < 0 else seen.unit.motion.slot(place)
+        value = line.sign * int(now) * ONE + offset
+        low, high = same_side(value, operator, still(names), folded=line.folded)
+        low, high = max(low, LOWEST + 1) - offset, min(high, HIGHEST) - offset
+        if line.sign < 0:
+            low, high = -high, -low
+        lowest, highest = max(-(-low // ONE), -(2**31)), min(high // ONE, 2**31 - 1)
+        if not lowest <= now <= highest or now != int(now):
+            raise Restless
+        if place >= 0:
+            ranges.add((place, float(lowest), float(highest)))
+            return FOREVER
+        return seen.unit.clock.tick_of(highest + 1 + seen.unit.state.clock_offset)
+
+    return look
+
+
+def same_side(value: int, operator: str, wanted: int, *, folded: bool) -> tuple[int, int]:
+    """The numbers around `value` that compare with `wanted` as it does; by magnitude where `folded`."""
+    if folded:
+        low, high = same_side(abs(value), operator, wanted, folded=False)
+        if low <= 0:
+            return -high, high
+        return (low, high) if value > 0 else (-high, -low)
+    if operator in ("=", "<>"):
+        if value == wanted:
+            return wanted, wanted
+        return (LOWEST, wanted - 1) if value < wanted else (wanted + 1, HIGHEST)
+    if operator in ("<=", ">"):
+        wanted += 1  # numbers are whole 1/65536: as `<` and `>=` of the next one
+    return (LOWEST, wanted - 1) if value < wanted else (wanted, HIGHEST)
