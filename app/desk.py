@@ -223,7 +223,7 @@ class Desk(QObject):
 
 
 def _line(left: Recovered) -> str:
-    """ "cutter.tlp – 22.11.2026 17:05 – 12 steps – in /home/me/programs"."""
+    """ "cutter.tlp – 22.11.2026 17:05 – 12 steps – in /programs"."""
     steps = sum(1 for _ in left.document.program.steps())
     parts = [left.name, f"{left.when:%d.%m.%Y %H:%M}", f"{steps} step{'s' * (steps != 1)}"]
     if left.original:
