@@ -114,6 +114,9 @@ class Axis:
     torque_limit: str = value(_number("Torque limit", "Largest motor command.", 0, 9.9982, suffix="V"), "")
     integrator_limit: str = value(_number("Integrator limit", "Largest integrator output.", 0, 9.9982, suffix="V"), "")
     offset: str = value(_number("Offset", "Voltage added to the motor command.", -9.9982, 9.9982, suffix="V"), "")
+    mirrored: bool = value(
+        Flag(label="Drawn the other way", help="Pictures of paths show this axis pointing left or down."), False
+    )
     maximum_speed: str = value(
         _number("Top speed", "Fastest speed allowed, in units/s; empty = the controller's.", 0), ""
     )

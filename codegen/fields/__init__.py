@@ -30,6 +30,8 @@ from codegen.fields.numeric import (
     Smoothing,
     value_of,
 )
+from codegen.fields.paths import PathQuantity, base_letter
+from codegen.fields.table import Table
 from codegen.fields.texts import (
     LABEL,
     SYSTEM_LABELS,
@@ -66,13 +68,16 @@ __all__ = [
     "MessageText",
     "Number",
     "OutputNumber",
+    "PathQuantity",
     "PerAxis",
     "PerAxisText",
     "Quantity",
     "Smoothing",
+    "Table",
     "Text",
     "VariableName",
     "axes_problem",
+    "base_letter",
     "fields_of",
     "is_shown",
     "joined",

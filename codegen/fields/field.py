@@ -18,7 +18,10 @@ NONE: PerAxisText = ("", "", "", "")
 
 @dc.dataclass(frozen=True, slots=True)
 class Context:
-    """What a value needs to know beside itself: the machine, and the axis it belongs to ("" = none)."""
+    """What a value needs to know beside itself: the machine, and the axis it belongs to ("" = none).
+
+    A value along a path belongs to all the axes of the path: `XY`.
+    """
 
     setup: Setup
     axis: str = ""
@@ -78,6 +81,7 @@ class ListOf(Field):
     row: type[Any]
     most: int = 0
     joint: str = "; "  # what stands between the rows in the sentence
+    axes: str = ""  # the sibling that names the axes the rows move, for their values along a path
 
 
 def value(field: Field, default: Any = "") -> Any:

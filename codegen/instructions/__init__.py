@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from codegen.instructions.configuration import AccelDecel, AutoExecution, VariableArray
+from codegen.instructions.curves import ContourMode, ElectronicCam
 from codegen.instructions.flow import End, Jump, Label, Repeat, Subroutine, Wait
 from codegen.instructions.following import AbortMotion, DisableGearing, ElectronicGearing, IncrementalPosition
 from codegen.instructions.instruction import Group, Instruction
@@ -22,6 +23,7 @@ from codegen.instructions.machine import (
 from codegen.instructions.math import MathematicalEquation
 from codegen.instructions.motion import BeginMotion, Home, MotionParameters, SingleAxisMove, StopMotion
 from codegen.instructions.operator import Print, UserInterface
+from codegen.instructions.paths import CircularPath, LinearPath, TangentPath
 from codegen.instructions.raw import Comment, TwoLetterCode
 from codegen.instructions.records import Communication, ExtendedIO, RecordData, UserSetup
 from codegen.instructions.servo import DualLoop, FeedForward, LoopRate, Offset, PidGains
@@ -47,15 +49,20 @@ ALL: tuple[type[Instruction], ...] = (
     WriteEeprom,
     Output,
     DedicatedInputs,
+    CircularPath,
     AbortMotion,
     BeginMotion,
+    ContourMode,
+    ElectronicCam,
     ElectronicGearing,
     DisableGearing,
     Home,
     IncrementalPosition,
+    LinearPath,
     MotionParameters,
     SingleAxisMove,
     StopMotion,
+    TangentPath,
     AutoExecution,
     ClearScreen,
     End,
@@ -94,14 +101,17 @@ __all__ = [
     "ArmLatch",
     "AutoExecution",
     "BeginMotion",
+    "CircularPath",
     "ClearScreen",
     "Comment",
     "Communication",
+    "ContourMode",
     "DedicatedInputs",
     "DefinePosition",
     "DisableGearing",
     "Drive",
     "DualLoop",
+    "ElectronicCam",
     "ElectronicGearing",
     "Encoder",
     "End",
@@ -118,6 +128,7 @@ __all__ = [
     "Interrupt",
     "Jump",
     "Label",
+    "LinearPath",
     "LoopRate",
     "MathematicalEquation",
     "MotionParameters",
@@ -134,6 +145,7 @@ __all__ = [
     "SingleAxisMove",
     "StopMotion",
     "Subroutine",
+    "TangentPath",
     "TorqueLimit",
     "TwoLetterCode",
     "UserInterface",

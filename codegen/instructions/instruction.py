@@ -63,6 +63,10 @@ class Instruction:
         """A contradiction between the fields: (field, sentence)."""
         return None
 
+    def setup_problem(self, setup: Setup) -> tuple[str, str] | None:
+        """What this machine cannot do of it: (field, sentence); the fields are right in themselves."""
+        return None
+
     def own_warning(self, setup: Setup) -> tuple[str, str] | None:
         """Advice about the values: (field, sentence)."""
         return None

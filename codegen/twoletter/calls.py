@@ -14,7 +14,7 @@ from codegen.twoletter.rows import Field, Row, Takes
 
 AXES = "XYZW"
 Value: TypeAlias = int | Fraction | str  # a number, or the text of an expression
-_LETTERS = {Takes.AXES: "XYZW", Takes.AXES_S: "XYZWS"}
+_LETTERS = {Takes.AXES: "XYZW", Takes.AXES_S: "XYZWS", Takes.PLANE: "XYZWN", Takes.AXIS: "XYZW"}
 
 
 class BadCall(ValueError):
@@ -34,6 +34,8 @@ class Call:
 
     @property
     def text(self) -> str:
+        if self.arguments.startswith("["):
+            return f"{self.name}{self.arguments}"
         return f"{self.name} {self.arguments}" if self.arguments else self.name
 
 
@@ -112,11 +114,27 @@ def by_axis(name: str, values: Mapping[str, Value]) -> Call:
 
 def for_axes(name: str, letters: str) -> Call:
     """`BG XY`; no letters mean all axes."""
-    row = _row(name, Takes.AXES, Takes.AXES_S)
+    row = _row(name, Takes.AXES, Takes.AXES_S, Takes.PLANE, Takes.AXIS)
     allowed = _LETTERS[row.takes]
     if any(letter not in allowed for letter in letters) or len(set(letters)) < len(letters):
         raise BadCall(f"{name} takes the axes {allowed}, not {letters}")
     return Call(name, letters)
+
+
+def segment(name: str, values: Mapping[int, Value], speed: Value | None = None) -> Call:
+    """`VP 1000,2000<500`, `LI ,5`: values by their place, and the speed of this segment."""
+    row = _row(name, Takes.SEGMENT, Takes.SEGMENT_AXES)
+    rows: tuple[Field | Row, ...] = row.fields or (row,) * len(AXES)
+    places = [_checked(name, rows[place], values[place]) if place in values else "" for place in range(len(rows))]
+    behind = "" if speed is None else f"<{_checked('VS', COMMANDS['VS'], speed)}"
+    return Call(name, ",".join(places).rstrip(",") + behind)
+
+
+def entry(name: str, index: int, values: Mapping[str, Value]) -> Call:
+    """`ET[3]=,1500`: one entry of a table, a number at the place of each axis that has one."""
+    row = _row(name, Takes.TABLE)
+    places = [_checked(name, row, values[letter]) if letter in values else "" for letter in AXES]
+    return Call(name, f"[{index}]=" + ",".join(places).rstrip(","))
 
 
 def numbers(name: str, *values: Value | None) -> Call:

@@ -12,7 +12,7 @@ from hypothesis import given
 from codegen import files, smartmotor
 from codegen.docs import EXAMPLE_SETUP, page
 from codegen.document import Document
-from codegen.fields import Choice, ListOf, PerAxis, fields_of
+from codegen.fields import Choice, ListOf, fields_of
 from codegen.generate import code
 from codegen.instructions import ALL, GROUPS, Instruction
 from codegen.program import Program, Step
@@ -136,7 +136,7 @@ def test_lines_fit_the_controller(instruction: Instruction) -> None:
     assert all(len(line) <= SETUP.limits.columns for line in code(instruction, SETUP))
 
 
-def test_per_axis_fields_of_rows_are_not_nested() -> None:
-    """A row holds plain values only, so that a form can show it as one line."""
+def test_rows_hold_no_lists() -> None:
+    """A row holds no list of its own, so that a form can show it as one entry."""
     for row in ROWS:
-        assert not any(isinstance(field, PerAxis | ListOf) for field in fields_of(row).values())
+        assert not any(isinstance(field, ListOf) for field in fields_of(row).values())

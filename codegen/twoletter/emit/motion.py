@@ -62,8 +62,14 @@ def smoothing(axis: str, text: str, build: Build) -> Statement:
     amount = parse_number(text) or Fraction(0)
     if build.setup.axis(axis).is_stepper:
         return by_axis("KS", {axis: amount})
+    return by_axis("IT", {axis: smoothing_ratio(text)})
+
+
+def smoothing_ratio(text: str) -> Fraction:
+    """Smoothing 0 … 255 as IT and VT take it, 1 … 0.004."""
+    amount = parse_number(text) or Fraction(0)
     # the controller rounds down to 1/256 (commands.md, IT), so the four decimals are rounded up
-    return by_axis("IT", {axis: max(Fraction(ceil((256 - amount) / 256 * 10_000), 10_000), SMOOTHEST)})
+    return max(Fraction(ceil((256 - amount) / 256 * 10_000), 10_000), SMOOTHEST)
 
 
 def wait_for(wait: WaitFor, axes: str, time_out: str, build: Build) -> Iterator[Statement]:
