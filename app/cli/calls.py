@@ -17,6 +17,7 @@ DOES = {
     "terminal": "app.cli.terminal",
     "download": "app.cli.transfer",
     "upload": "app.cli.transfer",
+    "conform": "app.cli.conforming",
     "ports": "app.cli.ports",
 }
 

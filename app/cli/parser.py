@@ -19,6 +19,7 @@ CALLS = (
     "terminal",
     "download",
     "upload",
+    "conform",
     "ports",
 )
 
@@ -116,6 +117,12 @@ def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     line_options(upload)
     upload.add_argument("-o", "--output", metavar="FILE")
     upload.add_argument("--force", action="store_true", help="overwrite an existing file")
+    conform = calls.add_parser("conform", help="compares a controller with the simulator; nothing moves")
+    line_options(conform)
+    conform.add_argument("-o", "--output", metavar="PROFILE.toml", help="what was found (default MODEL-profile.toml)")
+    conform.add_argument("--force", action="store_true", help="overwrite an existing file")
+    controller_option(conform)
+    conform.add_argument("--cw", type=int, choices=(1, 2), help="what CW is set to there: lets marks be looked at")
     calls.add_parser("ports", help="serial ports that are there")
 
 

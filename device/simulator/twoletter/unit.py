@@ -246,6 +246,7 @@ class Unit:
         """A reply by the format of its command's row."""
         if form is not None:
             return self._local(value, form)
+        reply = self.rows[name].reply or reply
         if reply == "PF":
             digits, decimals, hexadecimal = places(self.state.settings["PF"])
         else:
