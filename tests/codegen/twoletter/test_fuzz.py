@@ -18,9 +18,11 @@ from codegen.twoletter.format import format_source, format_statement
 from codegen.twoletter.nodes import Broken, Foreign
 from codegen.twoletter.parse import parse, parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
-from tests.long import count
+from tests.long import count, record
 
 SEED = 20_240_501
+CHUNK = 2_500
+CHUNKS = count(50_000, 500_000) // CHUNK  # of each half
 PIECES = [
     *(row.example for row in ALL),
     *(row.name for row in ALL),
@@ -86,10 +88,11 @@ def evaluate_all(text: str, source: random.Random) -> None:
                 assert LOWEST <= value <= HIGHEST
 
 
-@pytest.mark.timeout(7200)
-def test_nothing_is_raised_whatever_the_text() -> None:
-    source = random.Random(SEED)
-    for number in range(count(4_000, 1_000_000)):
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("chunk", range(CHUNKS))
+def test_nothing_is_raised_whatever_the_text(chunk: int) -> None:
+    source = random.Random(SEED + chunk)
+    for number in range(CHUNK):
         text = mutated(source)
         tree = parse(text)
         again = format_source(tree)
@@ -108,10 +111,15 @@ def test_nothing_is_raised_whatever_the_text() -> None:
             parameter_help(text, column, source.choice(CONTROLLERS))
 
 
-@pytest.mark.timeout(7200)
-def test_random_bytes_are_parsed_and_checked() -> None:
-    source = random.Random(SEED + 1)
-    for _ in range(count(1_000, 100_000)):
-        text = source.randbytes(source.randint(0, 200)).decode("latin-1")
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("chunk", range(CHUNKS))
+def test_random_bytes_are_parsed_and_checked(chunk: int) -> None:
+    source = random.Random(-SEED - chunk)
+    for number in range(CHUNK):
+        text = source.randbytes(source.randint(0, 40)).decode("latin-1")
         assert parse(format_source(parse(text))) == parse(text)
-        check(text, source.choice(CONTROLLERS))
+        if number % 4 == 0:
+            check(text, source.choice(CONTROLLERS))
+    if chunk == CHUNKS - 1:
+        record("fuzz: lines into the parser, half of them bytes", "tests/codegen/twoletter/test_fuzz.py", SEED,
+               2 * CHUNKS * CHUNK, "lines")  # fmt: skip
