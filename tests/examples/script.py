@@ -22,8 +22,8 @@ A file holds several examples. Each begins with `== MODEL l.FIRST-LAST title`; t
     # …                      comment
 
 Expressions know: x y z w (commanded actual error velocity torque stop_code motor_on moving), v (variables), strings,
-arrays, outputs, inputs, out(n), ms (true milliseconds since power-up), t, edges, errors, threads, messages, said(port), bench,
-gaps (milliseconds between edges), near(a, b, tolerance).
+arrays, outputs, inputs, out(n), ms (true milliseconds since power-up), t, edges, errors, threads, messages, said(port),
+bench, gaps (milliseconds between edges), near(a, b, tolerance).
 """
 
 from __future__ import annotations

@@ -18,6 +18,7 @@ from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.rows import Row
 from tests.examples.script import Bench, commands_in
+from tests.facts.sheet import sheet
 
 Fact = dict[str, Any]
 
@@ -50,6 +51,28 @@ def test_every_command_of_the_manuals_is_in_the_table(fact: Fact) -> None:
     assert name in COMMANDS, where(fact)
     for each in fact["models"]:
         assert COMMANDS[name].known_to(model(each)), f"{name} on {each}: {where(fact)}"
+
+
+SSC_LIST = range(473, 615)  # the list of chapter 12 in the table of contents of the SSC's manual
+NO_COMMAND = {494, 538, 539, 540, 541, 542, 586}  # empty lines and headings between its pages
+# What only the command facts give to the other family: no word of its manual says whether it has it.
+UNTOLD = {("AF", "dmc"), ("CW", "ssc"), ("^R^V", "ssc")}
+
+
+def named(manual: str) -> dict[str, int]:
+    """Commands that a manual names, with their lines."""
+    rows = tomllib.loads(Path(__file__).with_name("commands.toml").read_text(encoding="utf-8"))["fact"]
+    return {row["command"]: row["line"] for row in rows if row["manual"].startswith(manual)}
+
+
+def test_every_line_of_chapter_12s_list_is_a_fact() -> None:
+    assert set(named("ssc").values()) == set(SSC_LIST) - NO_COMMAND
+
+
+@pytest.mark.parametrize("family", ["ssc", "dmc"])
+def test_the_fact_sheet_has_the_commands_of_each_manual(family: str) -> None:
+    on_sheet = {name for name, entry in sheet().items() if any(each.startswith(family) for each in entry.models)}
+    assert on_sheet - {name for name, untold in UNTOLD if untold == family} == set(named(family))
 
 
 def ends(name: str, model_name: str, stepper: bool = False) -> tuple[set[float], set[float]]:

@@ -1,4 +1,8 @@
-"""Every row of the command table, keyword and function: complete, parsed by its own example, and as the spec says."""
+"""Every row of the command table, keyword and function: complete, parsed by its own example, and as the manuals say.
+
+`python -m tests.rows.test_every_command` prints each command on each controller with what was tried: accepted, refused
+with its code, asked, read as operand, does what the manual says; and where that stands. A hole fails the build.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +19,21 @@ from codegen.twoletter.nodes import Broken, Command, Comment, Foreign, Function,
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.rows import BY_AXIS, Row, Takes
+from tests.examples.script import Bench
+from tests.facts.sheet import COLUMNS, CONTROLLERS, Entry, Prober, sheet
+from tests.long import is_long
 
 ROWS = [pytest.param(row, id=row.name) for row in ALL]
 TYPED = [pytest.param(row, id=row.name) for row in ALL if row.takes not in (Takes.OPERAND, Takes.BYTES)]
+
+TOLD = [pytest.param(entry, name, id=f"{entry.name}-{name}") for entry in sheet().values() for name in entry.models]
+ABSENT = [
+    pytest.param(entry, name, id=f"{entry.name}-{name}")
+    for entry in sheet().values()
+    for name in CONTROLLERS
+    if name not in entry.models
+]
+EVERYDAY = ("ssc1", "ssc4", "dmc1412")  # the others run what these do not have; all in the long run
 
 
 def models_of(row: Row) -> list[Model]:
@@ -201,3 +217,63 @@ def test_ranges_depend_on_the_controller(
 )
 def test_registers_keep_their_resolution(name: str, given: float, stored: float) -> None:
     assert COMMANDS[name].stored(scaled(given)) == scaled(stored)
+
+
+# ------------------------------------------------------------- what the manuals say, put to the simulator
+
+
+def test_the_sheet_has_every_command_of_the_table_and_no_other() -> None:
+    assert set(sheet()) == set(COMMANDS)
+
+
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_the_same_controllers_have_it_on_the_sheet_and_in_the_table(name: str) -> None:
+    assert {each.name for each in models_of(COMMANDS[name])} == set(sheet()[name].models)
+
+
+@pytest.mark.parametrize(("entry", "controller"), TOLD)
+def test_a_command_has_no_hole(entry: Entry, controller: str) -> None:
+    assert all(entry.columns(controller).values()), entry.columns(controller)
+    checks = ("expect", "said", "refused", "badprogram", " -> ")
+    wordless = [
+        fact
+        for fact in entry.facts
+        if fact.verb == "does" and not any(word in step for _, step in fact.steps for word in checks)
+    ]
+    assert not wordless, [fact.text for fact in wordless]
+
+
+def test_only_control_characters_have_no_such_column() -> None:
+    assert {entry.name for entry in sheet().values() if any(fact.verb == "never" for fact in entry.facts)} == {
+        row.name for row in ALL if row.takes is Takes.BYTES
+    }
+
+
+@pytest.mark.parametrize(("entry", "controller"), TOLD)
+def test_what_the_manual_says(entry: Entry, controller: str) -> None:
+    Prober(entry, controller, EVERYDAY if not is_long() else ()).probe()
+
+
+@pytest.mark.parametrize(("entry", "controller"), ABSENT)
+def test_what_the_manual_does_not_have_is_unrecognized(entry: Entry, controller: str) -> None:
+    bench = Bench.of(controller)
+    assert bench.answer(COMMANDS[entry.name].example, 1).endswith("?")
+    assert bench.answer("TC1", 1).startswith("1 Unrecognized command")
+
+
+def print_table() -> None:
+    """The generated table; what does not hold is said beside it."""
+    print(f"{'command':8} {'on':8} " + " ".join(f"{column:>8}" for column in COLUMNS) + "  where")
+    for entry in sheet().values():
+        for name in entry.models:
+            cells = " ".join(f"{count or 'HOLE':>8}" for count in entry.columns(name).values())
+            try:
+                Prober(entry, name).probe()
+                wrong = ""
+            except AssertionError as reason:
+                wrong = f"  WRONG: {reason}".partition("\n")[0][:200]
+            print(f"{entry.name:8} {name:8} {cells}  {' '.join(entry.sources(name))}{wrong}")
+
+
+if __name__ == "__main__":
+    print_table()

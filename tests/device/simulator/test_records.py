@@ -26,7 +26,7 @@ def test_the_trace_tells_every_line_and_the_end() -> None:
     seen: list[tuple[int, int]] = []
     bench.simulation.on_trace = lambda ticks, thread, line: seen.append((thread, line))
     bench.run("#A\nN=0\n#L;N=N+1\nJP#L,N<2\nEN")
-    assert seen == [(0, 1), (0, 2), (0, 3), (0, 2), (0, 3), (0, 4), (0, -1)]
+    assert seen == [(0, 0), (0, 1), (0, 2), (0, 3), (0, 2), (0, 3), (0, 4), (0, -1)]
 
 
 def test_state_has_the_shape_of_run_json() -> None:
