@@ -11,14 +11,13 @@ from collections.abc import Callable
 
 import pytest
 
-from tests.benchmarks.all import SINGLE
+from tests.benchmarks.all import SEVERAL, SINGLE
 from tests.benchmarks.editing import SEED
 from tests.benchmarks.figure import Figure
-from tests.benchmarks.start import start_figures
 from tests.long import is_long, record
 
 COMMAND = "python -m tests.benchmarks"
-NEEDS_LINUX = ("served_idle", "download_share")
+NEEDS_LINUX = ("served_idle", "download_shares")
 SLACK = 2.0
 
 
@@ -33,11 +32,16 @@ def note(figure: Figure, seed: int | None = None) -> None:
     record(figure.name, COMMAND, seed, figure.value, figure.unit)
 
 
+def skip_elsewhere(name: str) -> None:
+    """Pseudo-terminals and the time of processes are Linux's."""
+    if name in NEEDS_LINUX and not sys.platform.startswith("linux"):
+        pytest.skip("measured on Linux")
+
+
 @pytest.mark.alone
 @pytest.mark.parametrize("measure", SINGLE, ids=lambda each: each.__name__)
 def test_speed(measure: Callable[[], Figure]) -> None:
-    if measure.__name__ in NEEDS_LINUX and not sys.platform.startswith("linux"):
-        pytest.skip("measured on Linux")
+    skip_elsewhere(measure.__name__)
     figure = measure()
     if not kept(figure):  # once more: another process may have been in the way
         figure = measure()
@@ -46,10 +50,12 @@ def test_speed(measure: Callable[[], Figure]) -> None:
 
 
 @pytest.mark.alone
-def test_start() -> None:
-    figures = start_figures()
+@pytest.mark.parametrize("measure", SEVERAL, ids=lambda each: each.__name__)
+def test_speeds(measure: Callable[[], list[Figure]]) -> None:
+    skip_elsewhere(measure.__name__)
+    figures = measure()
     if not all(map(kept, figures)):
-        figures = start_figures()
+        figures = measure()
     for figure in figures:
         note(figure)
     assert all(map(kept, figures)), "; ".join(map(str, figures))
