@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from codegen.compiled import Compiled, code, compiled, numbered
@@ -177,7 +178,7 @@ class _Pass:
 
     def add(self, texts: tuple[str, ...], step: str, numbers: list[str] | None = None) -> None:
         if numbers is None:
-            self.lines += [Line(text, step) for text in texts]
+            self.lines += _lines(texts, step)
         else:
             self.lines += [Line(numbered(text, numbers), step) for text in texts]
 
@@ -250,6 +251,12 @@ class _Pass:
         for label, step in self.jumps:
             if label not in self.defined and label not in SYSTEM_LABELS:
                 self.problems.append(Finding("target", f"There is no label {label}", "error", "", step))
+
+
+@lru_cache(maxsize=32768)
+def _lines(texts: tuple[str, ...], step: str) -> tuple[Line, ...]:
+    """The lines of a step; the same ones as at the last edit."""
+    return tuple([Line(text, step) for text in texts])
 
 
 def _own_rate(program: Program) -> bool:

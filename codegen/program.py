@@ -244,12 +244,13 @@ def renewed(program: Program, steps: Sequence[Step]) -> Steps:
     return tuple(copy(step) for step in steps)
 
 
-_NUMBERED = re.compile(r"s(\d{1,9})\Z", re.ASCII)
-
-
 def _highest(program: Program) -> int:
-    found = (_NUMBERED.match(step.id) for step in program.steps())
-    return max((int(match[1]) for match in found if match), default=0)
+    highest = 0
+    for step in program.steps():
+        number = step.id[1:]
+        if number.isdecimal() and number.isascii() and len(number) < 10 and step.id[0] == "s":
+            highest = max(highest, int(number))
+    return highest
 
 
 # -------------------------------------------------------- where new steps belong
@@ -274,6 +275,8 @@ def place_for(
         inside = section_of(program, selected)
         if place.parent != Section.ROUTINES and fits(kind, inside) and section in (None, inside):
             return place
+        if place.parent == Section.ROUTINES and fits(kind, inside) and section in (None, inside):
+            return end_of(find(program, selected))
     if kind == "C" or section is Section.CONFIGURATION:
         return Place(Section.CONFIGURATION, len(program.configuration))
     opened = open_routine(program)
@@ -291,6 +294,14 @@ def is_closed(routine: Step) -> bool:
     """Whether a subroutine ends with an End."""
     last = next((step for step in reversed(routine.body) if step.enabled), None)
     return last is not None and isinstance(last.instruction, End)
+
+
+def end_of(routine: Step) -> Place:
+    """The last place in a subroutine at which a step still runs: in front of the End that closes it."""
+    if not is_closed(routine):
+        return Place(routine.id, len(routine.body))
+    last = max(index for index, step in enumerate(routine.body) if step.enabled)
+    return Place(routine.id, last)
 
 
 def open_routine(program: Program) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 from PySide6.QtGui import QColor, QFont, QFontDatabase
@@ -94,8 +95,13 @@ def look() -> Look:
 
 
 def _font(families: list[str], points: float) -> QFont:
-    known = set(QFontDatabase.families())
-    chosen = [name for name in families if name in known] or families[-1:]
-    font = QFont(chosen)
+    font = QFont(list(_installed(tuple(families))))
     font.setPointSizeF(points)
     return font
+
+
+@lru_cache(maxsize=16)
+def _installed(families: tuple[str, ...]) -> tuple[str, ...]:
+    """Those of the families that this computer has: asking for all of its fonts takes a while."""
+    known = set(QFontDatabase.families())
+    return tuple(name for name in families if name in known) or families[-1:]

@@ -39,6 +39,8 @@ COMMANDS = (
     CommandRow("delete", "Delete", "Del", "delete", "Removes the steps; Undo brings them back"),
     CommandRow("move_up", "Move up", "Alt+Up", "up", "Moves the steps one place up"),
     CommandRow("move_down", "Move down", "Alt+Down", "down", "Moves the steps one place down"),
+    CommandRow("fold_all", "Fold all", "Alt+Left", "up", "Hides what subroutines and repeats hold", False),
+    CommandRow("unfold_all", "Unfold all", "Alt+Right", "down", "Shows what subroutines and repeats hold", False),
     CommandRow("end_of_repeat", "End of repeat", "Ctrl+Return", "loop", "New steps go behind the repeat again"),
     CommandRow("find", "Find instruction", "Ctrl+F", "search", "Searches the instructions", False),
     CommandRow("mode_program", "Program", "Ctrl+1", "program", "Plain English beside its code", False),

@@ -1,11 +1,17 @@
-"""The program as rows: three sections, their steps and the bodies of repeats; updated by what changed, never reset."""
+"""The program as rows: three sections, their steps and the bodies of repeats; updated by what changed, never reset.
+
+The rows are flat, as they stand on the screen, so that an edit touches what it changes only: a tree view asks for
+every row of the program after each inserted one.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import groupby
 from typing import Any
+from uuid import uuid4
 
-from PySide6.QtCore import QAbstractItemModel, QMimeData, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QMimeData, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 
 from codegen.changes import Change, Changed, Inserted, Moved, Removed
 from codegen.document import Document
@@ -18,49 +24,46 @@ Index = QModelIndex | QPersistentModelIndex
 
 STEPS_MIME = "application/x-twoletter-steps"
 NEW_MIME = "application/x-twoletter-instruction"
+FROM_MIME = "application/x-twoletter-window"  # whose steps they are: other windows number theirs alike
 NodeRole = Qt.ItemDataRole.UserRole + 1
 ENGLISH, CODE = 0, 1
 HEADINGS = ("Program", "Code")
 NOTHING = Qt.ItemFlag.NoItemFlags
+TOP = QModelIndex()
 SECTION_FLAGS = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsDropEnabled
-HOLDER_FLAGS = SECTION_FLAGS | Qt.ItemFlag.ItemIsDragEnabled
-STEP_FLAGS = HOLDER_FLAGS & ~Qt.ItemFlag.ItemIsDropEnabled | Qt.ItemFlag.ItemNeverHasChildren
-FLAGS = (SECTION_FLAGS, HOLDER_FLAGS, STEP_FLAGS)
+STEP_FLAGS = SECTION_FLAGS | Qt.ItemFlag.ItemIsDragEnabled
+FLAGS = (SECTION_FLAGS, STEP_FLAGS, STEP_FLAGS)
 
 
-class ProgramModel(QAbstractItemModel):
+class ProgramModel(QAbstractTableModel):
     """Rows of one document; `show` walks from the old document to the new one with few row operations."""
 
-    moved = Signal(object, object)  # ids of steps, (parent id or section, index)
-    pasted = Signal(str, object)  # steps from outside as text, where
-    chosen = Signal(str, object)  # title of an instruction dragged out of the palette, where
+    folded = Signal()  # something was folded or unfolded
 
     def __init__(self, words: Words, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.words = words
         self.root, self.nodes = empty_tree()
+        self.rows: list[Node] = list(self.root.children)  # as they stand on the screen
+        self._count(0)
         self.shown = Document(Program())  # what the rows show now
+        self._mark = uuid4().hex.encode()
         self.copy_text: Callable[[Sequence[str]], str] = lambda ids: ""
 
     # ---- what Qt asks
 
-    def index(self, row: int, column: int, parent: Index = QModelIndex()) -> QModelIndex:  # noqa: B008
-        """The index of a row below `parent`."""
-        children = (parent.internalPointer() or self.root).children
-        return self.createIndex(row, column, children[row]) if 0 <= row < len(children) else QModelIndex()
+    def index(self, row: int, column: int, parent: Index = TOP) -> QModelIndex:
+        """The index of a row; rows have none below them."""
+        there = 0 <= row < len(self.rows) and 0 <= column <= CODE and not parent.isValid()
+        return self.createIndex(row, column) if there else QModelIndex()
 
-    def parent(self, index: Index) -> QModelIndex:  # type: ignore[override]
-        """The row above in the tree."""
-        above = self.node(index).parent
-        return QModelIndex() if above is None or above is self.root else self.createIndex(above.row, 0, above)
+    def rowCount(self, parent: Index = TOP) -> int:
+        """How many rows are on the screen."""
+        return 0 if parent.isValid() else len(self.rows)
 
-    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
-        """How many rows stand below `parent`."""
-        return 0 if parent.isValid() and parent.column() > 0 else len(self.node(parent).children)
-
-    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
+    def columnCount(self, parent: Index = TOP) -> int:
         """English and code."""
-        return 2
+        return 0 if parent.isValid() else 2
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = 0) -> Any:
         """The headings of the two columns."""
@@ -79,30 +82,29 @@ class ProgramModel(QAbstractItemModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             return self.words.tip(node.step)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            return self.words.spoken(node.step) if index.column() == ENGLISH else self.words.code(node.step)
+            return self._spoken(node) if index.column() == ENGLISH else self.words.code(node.step)
         return None
 
     def flags(self, index: Index) -> Qt.ItemFlag:
-        """Steps can be chosen and dragged; sections and everything that holds steps take them."""
-        node = index.internalPointer()  # None for an invalid index; asked for every row at each change
-        return FLAGS[node.kind] if node is not None else NOTHING
+        """Steps can be chosen and dragged; what may be dropped where is told when it is let go."""
+        return FLAGS[self.rows[index.row()].kind] if index.isValid() else NOTHING
 
     # ---- look-up
 
     def node(self, index: Index) -> Node:
         """The row behind an index; the root for an invalid one."""
-        return index.internalPointer() if index.isValid() else self.root  # type: ignore[no-any-return]
+        return self.rows[index.row()] if index.isValid() else self.root
 
     def index_of(self, name: str, column: int = 0) -> QModelIndex:
-        """The index of a step by id, or of a section by name; invalid when it is not there."""
+        """The index of a step by id, or of a section by name; invalid when it is not on the screen."""
         node = self.nodes.get(name)
-        return QModelIndex() if node is None else self.createIndex(node.row, column, node)
+        return QModelIndex() if node is None or node.line < 0 else self.createIndex(node.line, column)
 
     def order(self, ids: Sequence[str]) -> list[str]:
         """The given steps in the order of the program, without those whose holder is given too."""
         nodes = [self.nodes[name] for name in ids if name in self.nodes and self.nodes[name].step is not None]
         wanted = {node.id for node in nodes}
-        tops = [node for node in nodes if not _has_ancestor(node, wanted)]
+        tops = [node for node in nodes if not any(above.id in wanted for above in node.above())]
         return [node.id for node in sorted(tops, key=_path)]
 
     # ---- drag and drop
@@ -120,25 +122,51 @@ class ProgramModel(QAbstractItemModel):
         ids = self.order([self.node(index).id for index in indexes if index.column() == 0])
         data = QMimeData()
         data.setData(STEPS_MIME, ("\n".join(ids) + "\f" + self.copy_text(ids)).encode())
+        data.setData(FROM_MIME, self._mark)
         return data
 
+    def owns(self, data: QMimeData) -> bool:
+        """Whether these are steps of this window."""
+        return bytes(data.data(FROM_MIME).data()) == self._mark
+
     def dropMimeData(self, data: QMimeData, action: Qt.DropAction, row: int, column: int, parent: Index) -> bool:
-        """Says what was dropped and where; the owner changes the document."""
-        node = self.node(parent)
-        if node is self.root:
-            return False
-        if node.step is not None and not self.words.holds_steps(node.step) and node.parent is not None:
-            row, node = node.row + 1, node.parent
-        where = (node.id, len(node.children) if row < 0 else row)
-        if data.hasFormat(NEW_MIME):
-            self.chosen.emit(bytes(data.data(NEW_MIME).data()).decode(), where)
-        elif data.hasFormat(STEPS_MIME):
-            names, _, text = bytes(data.data(STEPS_MIME).data()).decode().partition("\f")
-            if action == Qt.DropAction.MoveAction:
-                self.moved.emit(tuple(names.split("\n")), where)
-            else:
-                self.pasted.emit(text, where)
-        return False  # never let the view remove rows: the document decides
+        """Nothing: the view says what was dropped and where, and the document decides."""
+        return False
+
+    # ---- folding
+
+    def fold(self, name: str, folded: bool = True) -> None:
+        """Hides what a section or a step holds, or shows it again."""
+        node = self.nodes[name]
+        if node.folded == folded:
+            return
+        if node.line < 0:
+            node.folded = folded  # it is out of sight itself
+        elif folded:
+            hidden = sum(1 for _ in node.unfolded()) - 1
+            self._take(node.line + 1, hidden, lambda: setattr(node, "folded", True))
+        else:
+            node.folded = False
+            seen = list(node.unfolded())[1:]
+            node.folded = True
+            self._put(node.line + 1, seen, lambda: setattr(node, "folded", False))
+        if node.line >= 0:
+            self._say_changed(node)
+        self.folded.emit()
+
+    def uncover(self, name: str) -> None:
+        """Unfolds everything a step stands in."""
+        node = self.nodes.get(name)
+        if node is not None:
+            for above in reversed([each for each in node.above() if each.folded]):
+                self.fold(above.id, False)
+
+    def visible_of(self, name: str) -> str:
+        """The step itself, or the folded one it is hidden in; nothing when there is no such step."""
+        node = self.nodes.get(name)
+        if node is None:
+            return ""
+        return node.id if node.line >= 0 else next(above.id for above in node.above() if above.line >= 0)
 
     # ---- following the document
 
@@ -146,8 +174,8 @@ class ProgramModel(QAbstractItemModel):
         """Goes from what the rows show to `new`; rows of steps that stay keep selection and scrolling."""
         old, self.shown = self.shown, new
         found = edits(old.program, new.program)
-        for edit in found:
-            self._apply(edit)
+        for run in _runs(found):
+            self._apply(run)
         for section in self.root.children:
             _adopt(section, new.program.section(Section(section.section)))
         if old.working_setup != new.working_setup:
@@ -158,61 +186,163 @@ class ProgramModel(QAbstractItemModel):
 
     def refresh(self) -> None:
         """Every row's words may have changed."""
-        for node in self.root.walk():
-            if node.children:
-                first, last = node.children[0], node.children[-1]
-                self.dataChanged.emit(self.createIndex(first.row, 0, first), self.createIndex(last.row, 1, last))
+        self.dataChanged.emit(self.createIndex(0, 0), self.createIndex(len(self.rows) - 1, CODE))
 
-    def _apply(self, change: Change) -> None:
-        match change:
-            case Inserted(step, place):
-                self._insert(self.nodes[place.parent], place.index, step)
-            case Removed(name, _):
-                self._remove(self.nodes[name])
+    def _apply(self, run: Sequence[Change]) -> None:
+        match run[0]:
+            case Inserted(_, place):
+                steps = [edit.step for edit in run if isinstance(edit, Inserted)]
+                self._insert(self.nodes[place.parent], place.index, steps)
+            case Removed(name, place):
+                last = self.nodes[name]  # steps go from the last to the first
+                self._remove(self.nodes[place.parent], last.row - len(run) + 1, len(run))
             case Moved(name, _, place):
                 self._move(self.nodes[name], self.nodes[place.parent], place.index)
 
     def _say_changed(self, node: Node) -> None:
         """The words of one row are new."""
-        self.dataChanged.emit(self.createIndex(node.row, 0, node), self.createIndex(node.row, 1, node))
+        if node.line >= 0:
+            self.dataChanged.emit(self.createIndex(node.line, 0), self.createIndex(node.line, CODE))
 
-    def _insert(self, parent: Node, row: int, step: Step) -> None:
-        self.beginInsertRows(self._of(parent), row, row)
-        parent.children.insert(row, self._grown(parent, step))
-        parent.number(row)
-        self.endInsertRows()
+    def _insert(self, parent: Node, row: int, steps: Sequence[Step]) -> None:
+        grown = [self._grown(parent, step) for step in steps]
+
+        def enter() -> None:
+            parent.children[row:row] = grown
+            parent.number(row)
+
+        if parent.is_open_to_view():
+            self._put(_line_at(parent, row), [node for each in grown for node in each.walk()], enter)
+        else:
+            enter()
 
     def _grown(self, parent: Node, step: Step) -> Node:
         node = Node(parent, step)
         self.nodes[step.id] = node
-        node.children = [self._grown(node, child) for child in step.body]
-        node.number()
+        if step.body:
+            node.children = [self._grown(node, child) for child in step.body]
+            node.number()
         return node
 
-    def _remove(self, node: Node) -> None:
-        parent = _parent(node)
-        self.beginRemoveRows(self._of(parent), node.row, node.row)
-        del parent.children[node.row]
-        parent.number(node.row)
-        for gone in node.walk():
-            self.nodes.pop(gone.id, None)
-        self.endRemoveRows()
+    def _remove(self, parent: Node, row: int, count: int) -> None:
+        gone = parent.children[row : row + count]
+
+        def leave() -> None:
+            del parent.children[row : row + count]
+            parent.number(row)
+            for each in gone:
+                for node in each.walk():
+                    if self.nodes.get(node.id) is node:
+                        del self.nodes[node.id]
+
+        if parent.is_open_to_view():
+            self._take(gone[0].line, sum(1 for each in gone for _ in each.unfolded()), leave)
+        else:
+            leave()
 
     def _move(self, node: Node, parent: Node, row: int) -> None:
         source, start = _parent(node), node.row
         if source is parent and start == row:
             return
-        ahead = source is parent and row > start  # Qt counts before the row is taken out
-        self.beginMoveRows(self._of(source), start, start, self._of(parent), row + ahead)
-        del source.children[start]
-        parent.children.insert(row, node)
-        node.parent = parent
-        source.number(min(start, row) if source is parent else start)
-        parent.number(min(start, row) if source is parent else row)
+
+        def change() -> None:
+            del source.children[start]
+            parent.children.insert(row, node)
+            node.parent = parent
+            source.number(min(start, row) if source is parent else start)
+            parent.number(min(start, row) if source is parent else row)
+
+        seen = list(node.unfolded())
+        if node.line < 0 and not parent.is_open_to_view():
+            change()
+        elif node.line < 0:
+            self._put(_line_at(parent, row), seen, change)
+        elif not parent.is_open_to_view():
+            self._take(node.line, len(seen), change)
+        else:
+            ahead = source is parent and row > start  # the line is counted before the rows are taken out
+            self._carry(node.line, seen, _line_at(parent, row + ahead), change)
+
+    # ---- rows on the screen
+
+    def _put(self, line: int, nodes: Sequence[Node], change: Callable[[], object]) -> None:
+        """New rows from `line` on."""
+        if not nodes:
+            change()
+            return
+        self.beginInsertRows(TOP, line, line + len(nodes) - 1)
+        change()
+        self.rows[line:line] = nodes
+        self._count(line)
+        self.endInsertRows()
+
+    def _take(self, line: int, count: int, change: Callable[[], object]) -> None:
+        """Rows from `line` on go."""
+        if not count:
+            change()
+            return
+        self.beginRemoveRows(TOP, line, line + count - 1)
+        change()
+        for node in self.rows[line : line + count]:
+            node.line = -1
+        del self.rows[line : line + count]
+        self._count(line)
+        self.endRemoveRows()
+
+    def _carry(self, line: int, nodes: Sequence[Node], to: int, change: Callable[[], object]) -> None:
+        """Rows go elsewhere; `to` counts before they are taken out."""
+        count = len(nodes)
+        if line <= to <= line + count:  # only further in or out: the same lines
+            change()
+            self.dataChanged.emit(self.createIndex(line, 0), self.createIndex(line + count - 1, CODE))
+            return
+        self.beginMoveRows(TOP, line, line + count - 1, TOP, to)
+        change()
+        del self.rows[line : line + count]
+        start = to - count if to > line else to
+        self.rows[start:start] = nodes
+        self._count(min(line, start))
         self.endMoveRows()
 
-    def _of(self, node: Node) -> QModelIndex:
-        return QModelIndex() if node is self.root else self.createIndex(node.row, 0, node)
+    def _count(self, start: int) -> None:
+        rows = self.rows
+        for line in range(start, len(rows)):
+            rows[line].line = line
+
+    def _spoken(self, node: Node) -> str:
+        """The words of a step, and what a screen reader cannot see: that it is folded, and what it stands in."""
+        if node.step is None:
+            return ""
+        words = self.words.spoken(node.step)
+        holder = node.parent
+        inside = f", inside {holder.step.instruction.title}" if holder is not None and holder.step is not None else ""
+        hidden = f", folded, {len(node.children)} inside" if node.folded and node.children else ""
+        return f"{words}{inside}{hidden}"
+
+
+def _runs(found: Sequence[Change]) -> Iterator[list[Change]]:
+    """Edits that can be made at once: steps beside each other that come, or that go from the last to the first."""
+
+    def key(item: tuple[int, Change]) -> object:
+        number, edit = item
+        match edit:
+            case Inserted(_, place):
+                return "in", place.parent, place.index - number
+            case Removed(_, place):
+                return "out", place.parent, place.index + number
+            case _:
+                return number
+
+    for _, run in groupby(enumerate(found), key):
+        yield [edit for _, edit in run]
+
+
+def _line_at(parent: Node, row: int) -> int:
+    """The line a child would come to stand on at `row`."""
+    if row == 0:
+        return parent.line + 1
+    before = parent.children[row - 1]
+    return before.line + sum(1 for _ in before.unfolded())
 
 
 def _adopt(node: Node, steps: Sequence[Step]) -> None:
@@ -237,19 +367,5 @@ def _section_data(node: Node, column: int, role: int) -> Any:
     return HINTS[node.section] if role == Qt.ItemDataRole.ToolTipRole else None
 
 
-def _has_ancestor(node: Node, names: set[str]) -> bool:
-    above = node.parent
-    while above is not None:
-        if above.id in names:
-            return True
-        above = above.parent
-    return False
-
-
 def _path(node: Node) -> tuple[int, ...]:
-    rows: list[int] = []
-    above: Node | None = node
-    while above is not None:
-        rows.append(above.row)
-        above = above.parent
-    return tuple(reversed(rows))
+    return (*reversed([above.row for above in node.above()]), node.row)

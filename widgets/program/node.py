@@ -1,4 +1,4 @@
-"""One row of the program tree: a section or a step, with its rows below."""
+"""One row of the program: a section or a step, with the rows below it."""
 
 from __future__ import annotations
 
@@ -17,14 +17,16 @@ HINTS = {
 class Node:
     """A row; `step` is None for a section (then `section` names it) and for the root."""
 
-    __slots__ = ("children", "kind", "parent", "row", "section", "step")
+    __slots__ = ("children", "folded", "kind", "line", "parent", "row", "section", "step")
 
     def __init__(self, parent: Node | None, step: Step | None = None, section: str = "") -> None:
         self.parent = parent
         self.step = step
         self.section = section
         self.children: list[Node] = []
-        self.row = 0
+        self.folded = False
+        self.row = 0  # among the children of its parent
+        self.line = -1  # on the screen, counted from the top; -1 while something above is folded
         self.kind = 0 if step is None else 1 if step.instruction.container else 2  # section, holder of steps, step
 
     def adopt(self, step: Step) -> None:
@@ -37,6 +39,18 @@ class Node:
         """The step's id, or the section's name."""
         return self.section if self.step is None else self.step.id
 
+    @property
+    def depth(self) -> int:
+        """How far in it stands: 0 for a section."""
+        return sum(1 for _ in self.above()) - 1
+
+    def above(self) -> Iterator[Node]:
+        """What it stands in, from inside out, the root last."""
+        node = self.parent
+        while node is not None:
+            yield node
+            node = node.parent
+
     def number(self, start: int = 0) -> None:
         """Writes the row numbers of the children from `start` on."""
         children = self.children
@@ -45,16 +59,24 @@ class Node:
 
     def section_name(self) -> str:
         """The section this row stands in."""
-        node: Node | None = self
-        while node is not None and not node.section:
-            node = node.parent
-        return "" if node is None else node.section
+        return self.section or next((node.section for node in self.above() if node.section), "")
 
     def walk(self) -> Iterator[Node]:
         """This row and everything below it, in order."""
         yield self
         for child in self.children:
             yield from child.walk()
+
+    def unfolded(self) -> Iterator[Node]:
+        """This row and what is to be seen below it, in order."""
+        yield self
+        if not self.folded:
+            for child in self.children:
+                yield from child.unfolded()
+
+    def is_open_to_view(self) -> bool:
+        """Whether rows below it are on the screen."""
+        return not self.folded and (self.line >= 0 or self.parent is None)
 
 
 def empty_tree() -> tuple[Node, dict[str, Node]]:

@@ -11,11 +11,12 @@ from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidg
 from codegen import read
 from codegen.document import Document
 from codegen.generate import Listing
-from codegen.instructions import ALL, Comment, Instruction, TwoLetterCode
-from codegen.program import Place, Section, Step, find, place_of
+from codegen.instructions import Comment, Instruction, Subroutine, TwoLetterCode
+from codegen.program import Section, Step, end_of, find
 from widgets.form.inspector import Inspector
 from widgets.form.offers import offers_of
 from widgets.program import clipboard
+from widgets.program.arranging import Arranging
 from widgets.program.code_popup import CodePopup
 from widgets.program.commands import COMMANDS, make_actions
 from widgets.program.delegate import ProgramDelegate
@@ -54,7 +55,7 @@ class ProgramView(QWidget):
         self.setProperty("helpPage", "Program window")
         self.words = Words()
         self.model = ProgramModel(self.words, self)
-        self.delegate = ProgramDelegate(self.words)
+        self.delegate = ProgramDelegate(self.model)
         self.tree = ProgramTree(self.model, self.delegate)
         self.code = CodeView()
         self.header = Header()
@@ -63,6 +64,7 @@ class ProgramView(QWidget):
         self.problems = ProblemsPanel()
         self.inspector = Inspector(offers_of(session.document))
         self.dialogs = Dialogs(self, session)
+        self.arranging = Arranging(session, self.model, self.tree)
         self.mode = "program"
         self.running: Listing | None = None
         self._stepping = self._showing = False
@@ -82,8 +84,7 @@ class ProgramView(QWidget):
         self._showing = True  # rows come and go: the selection is told once, at the end
         self.model.show(new)
         self._showing = False
-        if old is None:
-            self.tree.expandAll()
+        self.delegate.show_marks()
         self.tree.viewport().update()
         self._show_code()
         self.header.show_program(new.program, _label(listing))
@@ -111,6 +112,7 @@ class ProgramView(QWidget):
                 steps[step] = (*steps.get(step, ()), thread)
         if steps != self.delegate.executing:
             self.delegate.executing = steps
+            self.delegate.show_marks()
             self.tree.viewport().update()
         self.code.show_executing(threads)
 
@@ -246,31 +248,39 @@ class ProgramView(QWidget):
         kind, text = clipboard.take()
         before = self.tree.current() if self.tree.chosen() else None
         if kind == "steps":
-            self._paste(text, before=before)
+            self.arranging.paste(text, before=before)
         elif kind == "code":
             self.tree.choose(self.session.insert([TwoLetterCode(text=text)], before, None))
 
     def duplicate(self) -> None:
-        ids = self.tree.chosen()
-        if ids:
-            last = place_of(self.session.document.program, ids[-1])
-            self._paste(self.session.copy(ids), place=Place(last.parent, last.index + 1))
+        self.arranging.duplicate()
 
     def delete(self) -> None:
         ids = self.tree.chosen()
         if ids:
-            below = self.tree.indexBelow(self.model.index_of(ids[-1]))
-            after = self.model.node(below).id if below.isValid() else ""
+            after = self._after(ids[-1])
             self.session.remove(ids)
             if self.model.index_of(after).isValid():
                 self.tree.choose([after])
             self.said.emit("Deleted. Ctrl+Z brings it back.")
 
+    def _after(self, step_id: str) -> str:
+        """The row behind a step and all it holds."""
+        node = self.model.nodes[step_id]
+        line = node.line + sum(1 for _ in node.unfolded())
+        return self.model.rows[line].id if node.line >= 0 and line < len(self.model.rows) else ""
+
     def move_up(self) -> None:
-        self._shift(-1)
+        self.arranging.shift(-1)
 
     def move_down(self) -> None:
-        self._shift(1)
+        self.arranging.shift(1)
+
+    def fold_all(self) -> None:
+        self.tree.fold_all(True)
+
+    def unfold_all(self) -> None:
+        self.tree.fold_all(False)
 
     def end_of_repeat(self) -> None:
         if self.session.before is not None:
@@ -291,38 +301,6 @@ class ProgramView(QWidget):
         self.set_view("code")
 
     # ---- inside
-
-    def _shift(self, by: int) -> None:
-        ids = self.tree.chosen()
-        if not ids:
-            return
-        program = self.session.document.program
-        edge = place_of(program, ids[0] if by < 0 else ids[-1])
-        index = edge.index - 1 if by < 0 else edge.index + 2
-        if 0 <= index <= len(self.model.nodes[edge.parent].children):
-            self._move(ids, (edge.parent, index))
-
-    def _paste(self, text: str, before: str | None = None, place: Place | None = None) -> None:
-        ids = self.session.paste(text, before, place)
-        self.tree.choose(ids)
-        if not ids:
-            self.said.emit("There are no steps to paste")
-
-    def _move(self, ids: Sequence[str], where: tuple[str, int]) -> None:
-        place = Place(*where)
-        reason = self.session.refusal([self.step(step_id) for step_id in ids], place)
-        if reason:
-            self.said.emit(reason)
-        else:
-            self.session.move(ids, place)
-            self.tree.choose(ids)
-
-    def _drop_text(self, text: str, where: tuple[str, int]) -> None:
-        self._paste(text, place=Place(*where))
-
-    def _drop_new(self, title: str, where: tuple[str, int]) -> None:
-        kind = next(each for each in ALL if each.title == title)
-        self.dialogs.add(kind, place=Place(*where))
 
     def _chosen_kind(self, kind: type[Instruction]) -> None:
         reason = read.cannot(kind, self.session.document.working_setup)
@@ -356,21 +334,26 @@ class ProgramView(QWidget):
             self.tree.choose([step])
         self._stepping = False
 
+    def _folded(self) -> None:
+        self.delegate.show_marks()
+        self.tree.viewport().update()
+
     def _show_insertion(self) -> None:
         session = self.session
         name = session.before or session.open_body
-        if name is None or not self.model.index_of(name).isValid():
+        if name is None or name not in self.model.nodes:
             self.bar.show_text("")
             self.delegate.next_place = ("", "")
         else:
-            where = "before" if session.before else "inside"
-            self.bar.show_text(f"New steps go {where}: {self.words.english(self.step(name))}")
-            last = (
-                self.model.nodes[name].children[-1].id
-                if where == "inside" and self.model.nodes[name].children
-                else name
-            )
-            self.delegate.next_place = ("before" if where == "before" else "after", last)
+            node, step = self.model.nodes[name], self.step(name)
+            holds = session.before is None or isinstance(step.instruction, Subroutine)
+            self.bar.show_text(f"New steps go {'inside' if holds else 'before'}: {self.words.english(step)}")
+            at = end_of(step).index if holds else 0
+            if holds and at == len(node.children):
+                mark = ("after", self.model.visible_of(node.children[-1].id if at else name))
+            else:
+                mark = ("before", self.model.visible_of(node.children[at].id if holds else name))
+            self.delegate.next_place = mark
         self.bar.setVisible(self.mode != "code" and bool(self.bar.text.text()))
         self.tree.viewport().update()
         self.refresh_commands()
@@ -403,9 +386,9 @@ class ProgramView(QWidget):
         self.inspector.became_visible.connect(lambda: self._show_selection(scroll=False))
         session.insertion_changed.connect(self._show_insertion)
         self.model.copy_text = session.copy
-        self.model.moved.connect(self._move, Qt.ConnectionType.QueuedConnection)
-        self.model.pasted.connect(self._drop_text, Qt.ConnectionType.QueuedConnection)
-        self.model.chosen.connect(self._drop_new, Qt.ConnectionType.QueuedConnection)
+        self.model.folded.connect(self._folded)
+        self.arranging.said.connect(self.said)
+        self.arranging.new_wanted.connect(lambda kind, place: self.dialogs.add(kind, place=place))
         tree.modify_wanted.connect(self.dialogs.modify)
         tree.chosen_changed.connect(self._selection_changed)
         tree.customContextMenuRequested.connect(self._menu)

@@ -25,9 +25,12 @@ class Words:
         """Speaks of `document` from now on."""
         self.document, self.listing = document, listing
         lines: defaultdict[str, list[int]] = defaultdict(list)
-        for number, line in enumerate(listing.lines):
-            for part in line.parts or (line,):
-                lines[part.step].append(number)
+        for number, (_, step, _, parts) in enumerate(listing.lines):
+            if parts:
+                for part in parts:
+                    lines[part.step].append(number)
+            else:
+                lines[step].append(number)
         self.problems, self.errors, self._lines = {}, set(), lines
         for problem in listing.problems:
             self.problems.setdefault(problem.step, []).append(problem.message)

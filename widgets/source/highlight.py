@@ -52,7 +52,8 @@ class Highlighter(QSyntaxHighlighter):
         self._formats: dict[str, QTextCharFormat] = {}
 
     def highlightBlock(self, text: str) -> None:
-        """Colours one line."""
+        """Colours one line; its shapes are kept, because they are painted again and again."""
+        self.currentBlock().layout().setCacheEnabled(True)
         for start, count, kind in parts_of(text):
             self.setFormat(start, count, self._format(kind))
 

@@ -188,7 +188,8 @@ class CodeView(QPlainTextEdit):
 
     def _place_margin(self) -> None:
         width = self.margin_width()
-        self.setViewportMargins(width, 0, 0, 0)
+        if self.viewportMargins().left() != width:
+            self.setViewportMargins(width, 0, 0, 0)
         inside = self.contentsRect()
         self.margin.setGeometry(QRect(inside.left(), inside.top(), width, inside.height()))
 

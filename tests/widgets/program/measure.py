@@ -61,7 +61,7 @@ def main(mode: str) -> int:
 
 def _figures(values: list[float]) -> str:
     ordered = sorted(values)
-    return f"{ordered[len(ordered) // 2]:5.1f} ms (p95 {ordered[int(len(ordered) * 0.95)]:5.1f})"
+    return f"{ordered[0]:5.1f} {ordered[len(ordered) // 2]:5.1f} ms (p95 {ordered[int(len(ordered) * 0.95)]:5.1f})"
 
 
 if __name__ == "__main__":

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 
-from PySide6.QtCore import QMimeData, QPoint, Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from codegen.instructions import (
-    AccelDecel,
     Comment,
     Instruction,
     Jump,
@@ -27,7 +26,7 @@ from codegen.program import Section
 from codegen.setup import Unit
 from tests.widgets.program.conftest import Window
 from widgets.form.dialog import InstructionDialog
-from widgets.program.model import CODE, NEW_MIME
+from widgets.program.model import CODE
 
 # spec/instructions.md, "An example, whole": the wire cutter of dmc-1412-1414.txt, chapter 7
 WIRE_CUTTER = [
@@ -348,69 +347,6 @@ def test_insert_comment_asks_for_the_text(qtbot: QtBot, window: Window) -> None:
     type_into(qtbot, dialog, "text", "feed the wire")
     add(qtbot, dialog)
     assert [step.instruction for step in window.main()] == [Comment(text="feed the wire")]
-
-
-def drop(window: Window, data: QMimeData, parent: str, row: int, action: Qt.DropAction) -> None:
-    """What the view does when the mouse button is let go over a place of the tree."""
-    window.view.model.dropMimeData(data, action, row, 0, window.view.model.index_of(parent))
-    QApplication.processEvents()
-
-
-def dragged(window: Window, ids: list[str]) -> QMimeData:
-    """What a drag of these steps carries."""
-    model = window.view.model
-    return model.mimeData([model.index_of(step_id) for step_id in ids])
-
-
-def test_several_steps_are_dragged_into_a_repeat_and_out_again(window: Window) -> None:
-    ids = fill(window, Wait(time="1"), Wait(time="2"), Wait(time="3"))
-    (repeat,) = fill(window, Repeat())
-    drop(window, dragged(window, ids[:2]), repeat, -1, Qt.DropAction.MoveAction)
-    assert [step.id for step in window.main()] == [ids[2], repeat]
-    assert [step.id for step in window.main()[1].body] == ids[:2]
-    assert window.view.tree.chosen() == ids[:2]
-    drop(window, dragged(window, [ids[1]]), Section.MAIN, 0, Qt.DropAction.MoveAction)
-    assert [step.id for step in window.main()] == [ids[1], ids[2], repeat]
-    window.view.undo()
-    window.view.undo()
-    assert [step.id for step in window.main()] == [*ids, repeat]
-
-
-def test_a_copying_drag_adds_copies(window: Window) -> None:
-    ids = fill(window, Wait(time="1"))
-    drop(window, dragged(window, ids), Section.MAIN, 1, Qt.DropAction.CopyAction)
-    assert [step.instruction for step in window.main()] == [Wait(time="1"), Wait(time="1")]
-
-
-def test_a_drop_that_does_not_fit_is_refused_in_words(qtbot: QtBot, window: Window) -> None:
-    (step_id,) = fill(window, AccelDecel(acceleration=("400", "", "", "")))
-    before = window.session.document
-    with qtbot.waitSignal(window.view.said) as said:
-        drop(window, dragged(window, [step_id]), Section.MAIN, 0, Qt.DropAction.MoveAction)
-    assert said.args == ["Accel and Decel belongs to Configuration"]
-    assert window.session.document is before
-
-
-def test_an_instruction_dragged_out_of_the_palette_opens_its_dialog_for_that_place(
-    qtbot: QtBot, window: Window
-) -> None:
-    fill(window, Wait(time="1"), Wait(time="2"))
-    data = QMimeData()
-    data.setData(NEW_MIME, b"Wait")
-    drop(window, data, Section.MAIN, 1, Qt.DropAction.CopyAction)
-    dialog = dialog_of(window)
-    type_into(qtbot, dialog, "time", "9")
-    add(qtbot, dialog)
-    assert [step.instruction.time for step in window.main()] == ["1", "9", "2"]  # type: ignore[attr-defined]
-
-
-def test_moving_up_and_down_with_keys(window: Window) -> None:
-    ids = fill(window, Wait(time="1"), Wait(time="2"), Wait(time="3"))
-    window.view.tree.choose([ids[2]])
-    window.view.commands["move_up"].trigger()
-    assert [step.id for step in window.main()] == [ids[0], ids[2], ids[1]]
-    window.view.commands["move_down"].trigger()
-    assert [step.id for step in window.main()] == ids
 
 
 def test_the_two_panes_keep_their_selection_in_step(window: Window) -> None:
