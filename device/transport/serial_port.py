@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import os
 import sys
 
 import serial
@@ -57,9 +58,11 @@ class SerialPort:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
 
     def write(self, data: bytes) -> int:
+        handle = getattr(self._port, "fd", None)  # not on Windows
         try:
-            written = self._port.write(data)
-        except serial.SerialTimeoutException:
+            # pyserial's own write would try again for ever where a held line takes nothing
+            written = self._port.write(data) if handle is None else os.write(handle, data)
+        except (serial.SerialTimeoutException, BlockingIOError, InterruptedError):
             return 0
         except GONE as reason:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
@@ -72,8 +75,13 @@ class SerialPort:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
 
     def discard_output(self) -> None:
+        """Throws it away; also goes on after an XOFF: what is sent next is a stop, and the XON may be lost."""
         with contextlib.suppress(*GONE):
             self._port.reset_output_buffer()
+        if self._line.handshake in ("xon", "both"):
+            with contextlib.suppress(*GONE):
+                self._port.set_output_flow_control(False)  # Linux lets go only what it holds by this itself
+                self._port.set_output_flow_control(True)
 
     def close(self) -> None:
         with contextlib.suppress(*GONE):
