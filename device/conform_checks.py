@@ -145,9 +145,10 @@ def arrays(session: Session) -> Seen:
 
 def codes(session: Session) -> Seen:
     """The code of each line that is refused."""
-    with session.kept("PF"), session.kept("LZ"):  # should they be accepted after all
+    with session.kept("PF"):  # should it be accepted after all
         for code, line in REFUSED.items():
             yield f"codes.{code}", session.talk.refusal(line)
+    session.talk.do("LZ 0")
     if len(session.model.axes) < 4:
         yield "codes.90", session.talk.refusal("TP W")
     yield "undefined_variable_code", session.talk.refusal(f"MG {NOBODY}")

@@ -69,7 +69,7 @@ class Profile:
     typed_message_marked: bool = fact(
         False, "CW1 sets bit 7 also where MG was typed at the port", "inferred (asked for with --cw only)", rows=("CW",)
     )
-    revision: str = fact("Rev 2.0h", "second half of the answer to ^R^V", "inferred (form known)")
+    revision: str = fact("Rev 2.0h", "second half of the answer to ^R^V", "inferred (form known)", rows=("^R^V",))
     serial_number: int = fact(1, "what _BN tells", "recall", high=2**31 - 1)
     output_fifo: int = fact(
         128,
