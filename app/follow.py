@@ -13,12 +13,16 @@ from PySide6.QtCore import QObject
 from app.actions import Actions
 from app.connection import Connection
 from app.facts import Facts
+from app.homed import Homed
 from app.run import Run
 from app.session import Session
 from app.tick import Tick, failure_of
 from app.window import Window
+from codegen.generate import generate
+from codegen.read import sentence
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.api import Badge, Kind, NoticeKind, Row, State, StopState
+from device.download import program_lines
 from widgets.display.display import DisplayPanel
 from widgets.display.readings import age_of, fresh
 from widgets.display.threads import thread_words
@@ -28,7 +32,8 @@ from widgets.program.view import ProgramView
 from widgets.terminal.answers import asked_in
 
 if TYPE_CHECKING:
-    from device.api import Notice
+    from codegen.document import Document
+    from device.api import Controller, Notice
 
 FAULT = re.compile(r"\?\s*(\d{3}) (.*)")
 OWNER = "status bar"
@@ -103,7 +108,8 @@ class Follow(QObject):
             threads = controller.model.threads if controller.model is not None else 1
             first = controller.axes[:1].lower()
             keys = [f"thread{number}" for number in range(threads)]
-            keys += [f"moving.{letter.lower()}" for letter in controller.axes]  # leaving asks for it
+            for letter in controller.axes.lower():  # leaving asks for the first; the other two tell what is homed
+                keys += [f"moving.{letter}", f"stop_code.{letter}", f"motor_off.{letter}"]
             controller.watch(OWNER, [*keys, *([f"position.{first}"] if first else [])])
 
     def _status(self, row: Row) -> None:
@@ -145,17 +151,28 @@ class Program(Panel):
         super().__init__()
         self._view, self._display, self._tick, self._say = view, display, tick, say
         self._executing: dict[int, int | None] = {}
-        self._source: str | None = None
+        self._told: tuple[object, ...] = ()
+        self._document: Document | None = None
+        self.homed = Homed()
+        display.homed_told.connect(self.homed.confirm)
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self.homed.begin(controller)
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        self._document = new
 
     def look(self) -> None:
         """The lines the threads are on, from the newest row."""
         controller = self.controller
         if controller is None:
             return
-        if controller.listing != self._source:
-            self._source = controller.listing
-            self._display.show_source(self._source or "")
+        self._tell_source(controller)
         row = controller.last()
+        if self._document is not None:
+            self.homed.look(controller, row, self._document.setup)
+            self._display.show_homed({letter: (each.words, each.help) for letter, each in self.homed.marks.items()})
         threads = controller.model.threads if controller.model is not None else 1
         now = controller.clock()
         lines = {number: _line(fresh(row, f"thread{number}", now)) for number in range(threads)}
@@ -165,7 +182,19 @@ class Program(Panel):
             self._executing = lines
             self._view.show_executing(lines)
 
+    def _tell_source(self, controller: Controller) -> None:
+        """The lines of the controller's program; with the instructions they come from when it is the open one."""
+        ours = controller.program_badge is Badge.SAME
+        told = (controller.listing, self._document if ours else None)
+        if told == self._told:
+            return
+        self._told = told
+        lines = program_lines(controller.listing or "")
+        self._display.show_source(lines, sentences_of(self._document) if ours and self._document is not None else {})
+
     def notice(self, notice: Notice) -> None:
+        if self.controller is not None:
+            self.homed.happened(notice.kind, self.controller.clock())
         found = FAULT.fullmatch(notice.text) if notice.kind is NoticeKind.FAULT else None
         if found is None or self.controller is None:
             return
@@ -185,7 +214,17 @@ class Program(Panel):
         controller = self.controller
         if controller is None or controller.listing is None:
             return False
-        return self._view.running is not None or controller.program_badge is Badge.SAME
+        if controller.program_badge is Badge.SAME:
+            return True
+        running = self._view.running
+        return running is not None and program_lines(running.text) == program_lines(controller.listing)
+
+
+def sentences_of(document: Document) -> dict[int, str]:
+    """The sentence of the instruction that each line of the code comes from."""
+    listing, setup = generate(document), document.working_setup
+    words = {step.id: sentence(step.instruction, setup) for step in document.program.steps()}
+    return {number: words[line.step] for number, line in enumerate(listing.lines) if line.step in words}
 
 
 def _line(value: float) -> int | None:

@@ -419,3 +419,39 @@ def test_the_executing_line_is_shown_in_the_program(stage: Stage) -> None:
     stage.until(lambda: stage.studio.program.delegate.executing == {step: (0,)})
     assert rig.running == [line]
     assert rig.controller.state is State.READY
+
+
+def test_the_display_names_the_instruction_only_while_the_program_is_the_open_one(stage: Stage) -> None:
+    rig = same_model(stage)
+    rig.simulation.stimulus("in1", 0)
+    stage.download()
+    trigger(stage, "execute")
+    line = code(stage).index("AI 1")
+    stage.until(lambda: rig.running == [line])
+    stage.until(lambda: f"Thread 0: line {line}, Wait until input 1 is high (AI 1)" in stage.studio.display.words())
+    stage.studio.session.insert([Label(name="EXTRA")])
+    stage.go()
+    assert f"Thread 0: line {line}, waiting: after input (AI 1)" in stage.studio.display.words()
+    stage.studio.session.undo()
+    stage.go()
+    assert f"Thread 0: line {line}, Wait until input 1 is high (AI 1)" in stage.studio.display.words()
+
+
+def test_a_program_that_is_not_known_shows_the_bare_line_and_marks_no_row(stage: Stage) -> None:
+    rig = same_model(stage)
+    rig.start("#B\nN=1\nAI 1\nEN")
+    rig.simulation.stimulus("in1", 0)
+    stage.until(lambda: "Thread 0: line 2" in stage.studio.display.words())
+    assert "Thread 0: line 2\n" in stage.studio.display.words() + "\n"
+    assert stage.studio.program.delegate.executing == {}
+
+
+def test_the_lines_of_another_program_mark_no_row_of_the_one_that_was_downloaded_before(stage: Stage) -> None:
+    rig = same_model(stage)
+    stage.download()
+    rig.simulation.stimulus("in1", 0)
+    rig.start("#B\nN=1\nAI 1\nEN")  # as another computer may have put there
+    trigger(stage, "upload")
+    idle(stage)
+    stage.until(lambda: "Thread 0: line 2, waiting: after input (AI 1)" in stage.studio.display.words())
+    assert stage.studio.program.delegate.executing == {}

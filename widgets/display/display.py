@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
@@ -34,6 +35,7 @@ class DisplayPanel(Panel):
     moves = True
     io_control_wanted = Signal(bool)
     output_wanted = Signal(int, bool)
+    homed_told = Signal(str, bool)  # axis; the person says that it is homed, or that it is not
     connect_wanted = Signal()
     simulator_wanted = Signal()
     read_wanted = Signal()  # the person knows that no program waits for an answer
@@ -42,7 +44,8 @@ class DisplayPanel(Panel):
         super().__init__(parent)
         self._clock = clock
         self._setup: Setup | None = None
-        self._source: list[str] = []
+        self._source: Sequence[str] = ()
+        self._sentences: Mapping[int, str] = {}
         self._letters = ""
         self._threads = 0
         self.axes: dict[str, AxisReadout] = {}
@@ -67,9 +70,14 @@ class DisplayPanel(Panel):
             self._setup = new.setup
             self._fit()
 
-    def show_source(self, text: str) -> None:
-        """The listing that the controller holds, for the words of a waiting thread."""
-        self._source = text.splitlines()
+    def show_source(self, lines: Sequence[str], sentences: Mapping[int, str]) -> None:
+        """What the controller holds; `sentences`: the instructions of its lines when it is the open program."""
+        self._source, self._sentences = lines, sentences
+
+    def show_homed(self, marks: Mapping[str, tuple[str, str]]) -> None:
+        """Of each axis whether it is known to be homed, in words, and why, for the tooltip."""
+        for letter, readout in self.axes.items():
+            readout.show_homed(*marks.get(letter, ("", "")))
 
     def watches(self) -> tuple[str, ...]:
         axes = tuple(f"{name}.{letter.lower()}" for letter in self._letters for name in AXIS_VALUES)
@@ -86,7 +94,7 @@ class DisplayPanel(Panel):
         self.inputs.show_byte(row.value("inputs"), row.stale("inputs", now))
         self.outputs.show_byte(row.value("outputs"), row.stale("outputs", now))
         lines = [fresh(row, f"thread{number}", now) for number in range(self._threads)]
-        self.threads.show_threads(lines, self._source)
+        self.threads.show_threads(lines, self._source, self._sentences)
         self._show_rate()
         self._show_io_control()
 
@@ -98,7 +106,8 @@ class DisplayPanel(Panel):
         inputs = [f"input {lamp.words}" for lamp in self.inputs.lamps]
         outputs = [f"output {lamp.words}" for lamp in self.outputs.lamps]
         switches = [" ".join(self.switches.words(letter)) for letter in self.axes]
-        return "\n".join([self.rate.text(), *axes, *inputs, *outputs, *switches, *self.threads.words()])
+        homed = [f"{letter} {readout.homed.text()}" for letter, readout in self.axes.items() if readout.homed.text()]
+        return "\n".join([self.rate.text(), *axes, *inputs, *outputs, *switches, *homed, *self.threads.words()])
 
     def _show_rate(self) -> None:
         controller = self.controller
@@ -148,6 +157,7 @@ class DisplayPanel(Panel):
         for index, letter in enumerate(letters):
             if letter not in self.axes:
                 self.axes[letter] = AxisReadout(letter)
+                self.axes[letter].homed_told.connect(partial(self.homed_told.emit, letter))
             self._positions.insertWidget(index, self.axes[letter])
         self.switches.show_axes(letters)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
 
 from widgets.panel import set_text
 from widgets.parts.look import look
@@ -67,16 +67,27 @@ class Travel(QWidget):
 
 
 class AxisReadout(QWidget):
-    """One axis; `show_axis` is its only setter."""
+    """One axis; `show_axis` and `show_homed` are its setters."""
+
+    homed_told = Signal(bool)
 
     def __init__(self, letter: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.letter = letter
         self._shown: AxisShown | None = None
+        self._homed = ("", "")
         self.name = QLabel(letter)
         self.position, self.unit, self.state = QLabel(), QLabel(), QLabel()
         self.commanded, self.error, self.age = QLabel(), QLabel(), QLabel()
         self.travel = Travel(letter)
+        self.homed = QToolButton()
+        self.homed.setAutoRaise(True)
+        self.homed.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.homed.hide()
+        menu = QMenu(self.homed)
+        menu.addAction(f"I know that {letter} is homed", lambda: self.homed_told.emit(True))
+        menu.addAction(f"{letter} is not homed", lambda: self.homed_told.emit(False))
+        self.homed.setMenu(menu)
         for label in (self.unit, self.commanded, self.error, self.age):
             label.setProperty("role", "quiet")
         self.unit.setContentsMargins(0, 0, 0, 5)  # on the base line of the digits
@@ -101,6 +112,15 @@ class AxisReadout(QWidget):
             self._colour(shown)
         self.setAccessibleName(f"{self.letter} axis: {shown.position} {shown.unit}, {_state_words(shown)}")
 
+    def show_homed(self, words: str, why: str) -> None:
+        """Whether the axis is known to be homed; hidden when there is nothing to say."""
+        if (words, why) != self._homed:
+            self._homed = words, why
+            self.homed.setText(words)
+            self.homed.setToolTip(why)
+            self.homed.setAccessibleName(f"{self.letter} axis: {words[2:]}")
+            self.homed.setVisible(bool(words))
+
     def changeEvent(self, event: object) -> None:
         super().changeEvent(event)  # type: ignore[arg-type]
         if self._shown is not None and event.type().name in ("PaletteChange", "StyleChange"):  # type: ignore[attr-defined]
@@ -121,6 +141,7 @@ class AxisReadout(QWidget):
         second.addStretch(1)
         second.addWidget(self.commanded)
         third.setSpacing(12)
+        third.addWidget(self.homed)
         third.addWidget(self.travel, 1)
         third.addWidget(self.age)
         third.addStretch(0)
