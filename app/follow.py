@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,7 @@ from app.run import Run
 from app.session import Session
 from app.tick import Tick, failure_of
 from app.window import Window
-from codegen.generate import generate
+from codegen.generate import Listing, generate
 from codegen.read import sentence
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.api import Badge, Kind, NoticeKind, Row, State, StopState
@@ -152,6 +152,7 @@ class Program(Panel):
         self._view, self._display, self._tick, self._say = view, display, tick, say
         self._executing: dict[int, int | None] = {}
         self._told: tuple[object, ...] = ()
+        self._kept: tuple[int, ...] = ()  # the rows of our listing by line of the controller; none: it is not ours
         self._document: Document | None = None
         self.homed = Homed()
         display.homed_told.connect(self.homed.confirm)
@@ -175,9 +176,9 @@ class Program(Panel):
             self._display.show_homed({letter: (each.words, each.help) for letter, each in self.homed.marks.items()})
         threads = controller.model.threads if controller.model is not None else 1
         now = controller.clock()
-        lines = {number: _line(fresh(row, f"thread{number}", now)) for number in range(threads)}
-        if not self._is_shown():
-            lines = {}
+        lines = (
+            {number: self._row(fresh(row, f"thread{number}", now)) for number in range(threads)} if self._kept else {}
+        )
         if lines != self._executing:
             self._executing = lines
             self._view.show_executing(lines)
@@ -185,12 +186,23 @@ class Program(Panel):
     def _tell_source(self, controller: Controller) -> None:
         """The lines of the controller's program; with the instructions they come from when it is the open one."""
         ours = controller.program_badge is Badge.SAME
-        told = (controller.listing, self._document if ours else None)
+        told = (controller.listing, self._view.running, self._document if ours else None)
         if told == self._told:
             return
-        self._told = told
         lines = program_lines(controller.listing or "")
-        self._display.show_source(lines, sentences_of(self._document) if ours and self._document is not None else {})
+        own = generate(self._document) if ours and self._document is not None else None
+        fits = [each for each in (self._view.running, own) if each is not None and program_lines(each.text) == lines]
+        self._kept = kept_lines(fits[0]) if fits and controller.listing is not None else ()
+        if fits:
+            self._view.running = fits[0]
+        self._told = (told[0], self._view.running, told[2])
+        found = sentences_of(self._document, self._kept) if own is not None and self._document is not None else {}
+        self._display.show_source(lines, found)
+
+    def _row(self, line: float) -> int | None:
+        """The line of our listing that a line of the controller is."""
+        at = int(line) if math.isfinite(line) else -1
+        return self._kept[at] if 0 <= at < len(self._kept) else None
 
     def notice(self, notice: Notice) -> None:
         if self.controller is not None:
@@ -203,29 +215,22 @@ class Program(Panel):
         def done(future: Future[Any]) -> None:
             code = 0 if failure_of(future) else int(future.result()[0])
             reason = ERROR_TEXTS.get(code, "the controller stopped here")
-            if self._is_shown():
-                self._view.show_error(line, f"{reason} ({source})")
+            row = self._row(line)
+            if row is not None:
+                self._view.show_error(row, f"{reason} ({source})")
             self._say(f"The program stopped at line {line}: {reason} ({source}).")
 
         self._tick.when_done(self.controller.read("_TC"), done)
 
-    def _is_shown(self) -> bool:
-        """Whether the lines of the controller's program are rows of the open document (as downloaded, or the same)."""
-        controller = self.controller
-        if controller is None or controller.listing is None:
-            return False
-        if controller.program_badge is Badge.SAME:
-            return True
-        running = self._view.running
-        return running is not None and program_lines(running.text) == program_lines(controller.listing)
+
+def kept_lines(listing: Listing) -> tuple[int, ...]:
+    """Of a listing the lines that are sent, in their order: the controller counts without the remarks."""
+    return tuple(number for number, line in enumerate(listing.lines) if len(program_lines(f"{line.text}\nEN")) == 2)
 
 
-def sentences_of(document: Document) -> dict[int, str]:
-    """The sentence of the instruction that each line of the code comes from."""
+def sentences_of(document: Document, kept: Sequence[int]) -> dict[int, str]:
+    """The sentence of the instruction that each line of the controller's program comes from."""
     listing, setup = generate(document), document.working_setup
     words = {step.id: sentence(step.instruction, setup) for step in document.program.steps()}
-    return {number: words[line.step] for number, line in enumerate(listing.lines) if line.step in words}
-
-
-def _line(value: float) -> int | None:
-    return int(value) if math.isfinite(value) and value >= 0 else None
+    steps = {number: listing.lines[line].step for number, line in enumerate(kept)}
+    return {number: words[step] for number, step in steps.items() if step in words}

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
-from codegen.instructions import Label
+from codegen.instructions import Label, TwoLetterCode
 from device.api import Badge, State
 from tests.rig import Rig
 from tests.stage import Stage
@@ -455,3 +455,22 @@ def test_the_lines_of_another_program_mark_no_row_of_the_one_that_was_downloaded
     idle(stage)
     stage.until(lambda: "Thread 0: line 2, waiting: after input (AI 1)" in stage.studio.display.words())
     assert stage.studio.program.delegate.executing == {}
+
+
+def test_remarks_are_not_sent_and_do_not_shift_the_line_that_is_shown(stage: Stage) -> None:
+    rig = same_model(stage)
+    session = stage.studio.session
+    session.new(session.document.setup)
+    session.insert([TwoLetterCode(text="REM one\nREM two\nN=1")])
+    (wait,) = session.insert([TwoLetterCode(text="AI 1")])
+    (last,) = session.insert([TwoLetterCode(text="PR 1000;BGX\nPR 500;BGX")])  # the second begin comes while X moves
+    rig.simulation.stimulus("in1", 0)
+    stage.download()
+    assert "REM" in session.listing.text
+    assert not [line for line in rig.program if "REM" in line]
+    trigger(stage, "execute")
+    stage.until(lambda: stage.studio.program.delegate.executing == {wait: (0,)})
+    assert rig.running == [rig.program.index("AI 1")]
+    rig.simulation.stimulus("in1", 1)
+    stage.until(lambda: "stopped at line" in stage.studio.messages.texts()[-1])
+    assert stage.studio.program.current_step() == last
