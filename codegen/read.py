@@ -16,6 +16,7 @@ from codegen.fields import (
     Context,
     Field,
     ListOf,
+    PathQuantity,
     PerAxis,
     Quantity,
     Smoothing,
@@ -123,8 +124,8 @@ def _word(item: Any, name: str, setup: Setup) -> str:
     return text
 
 
-def _word_or_none(item: Any, name: str, setup: Setup) -> str | None:
-    """The text of one field; None when it is empty or hidden."""
+def _word_or_none(item: Any, name: str, setup: Setup, letters: str = "") -> str | None:
+    """The text of one field; None when it is empty or hidden. A row is told the axes of its path."""
     field = fields_of(item)[name]
     if not is_shown(item, name):
         return None
@@ -132,8 +133,8 @@ def _word_or_none(item: Any, name: str, setup: Setup) -> str | None:
     if field.empty(value):
         return MISSING if field.required else None
     if isinstance(field, ListOf):
-        return field.joint.join(_sentence_of(row, setup) for row in value)
-    return field.text(value, context_of(item, name, setup)) or None
+        return field.joint.join(_sentence_of(row, setup, row_axes(item, field)) for row in value)
+    return field.text(value, context_of(item, name, setup, row_axis(field, letters))) or None
 
 
 def _axis_word(item: Any, name: str, setup: Setup, letter: str) -> str:
@@ -177,12 +178,12 @@ def _no_each(parts: _Parts) -> str:
     raise AssertionError("<…> cannot stand inside <…>")
 
 
-def _sentence_of(item: Any, setup: Setup) -> str:
+def _sentence_of(item: Any, setup: Setup, letters: str = "") -> str:
     known: dict[str, str | None] = {}
 
     def words(name: str) -> str:
         if name not in known:
-            known[name] = _word_or_none(item, name, setup)
+            known[name] = _word_or_none(item, name, setup, letters)
         text = known[name]
         if text is None:
             raise _Absent
@@ -216,6 +217,8 @@ def axes_of(instruction: Instruction) -> str:
             continue
         if isinstance(field, PerAxis) and isinstance(field.of, Quantity):
             letters += field.given(value)
+        elif isinstance(field, ListOf):
+            letters += row_axes(instruction, field)
         elif isinstance(field, Quantity) and field.axis:
             letters += getattr(instruction, field.axis)
     return "".join(letter for letter in AXES if letter in letters)
@@ -258,8 +261,18 @@ def context_of(item: Any, name: str, setup: Setup, axis: str = "") -> Context:
     field = fields_of(item)[name]
     if not axis and isinstance(field, Quantity | Smoothing) and field.axis:
         letter: str = getattr(item, field.axis, "")
-        axis = letter if letter and letter in AXES else ""
+        axis = letter if set(letter) <= set(AXES) else ""
     return Context(setup, axis)
+
+
+def row_axes(item: Any, field: ListOf) -> str:
+    """The axes that the rows of a list move together; "" where each row knows its own."""
+    return str(getattr(item, field.axes)) if field.axes else ""
+
+
+def row_axis(field: Field, letters: str) -> str:
+    """What a field of a row is told of the axes of its path: only a value along the path belongs to all of them."""
+    return letters if isinstance(field, PathQuantity) else ""
 
 
 def _inner(item: Any, name: str, axis: str) -> tuple[Field, Any]:
@@ -277,18 +290,18 @@ def problem_of(item: Any, name: str, setup: Setup, axis: str = "") -> str | None
     value = getattr(item, name)
     if isinstance(field, PerAxis) and axis:
         return field.problem_of(value, axis, Context(setup, axis))
-    if problem := field.problem(value, context_of(item, name, setup)):
+    if problem := field.problem(value, context_of(item, name, setup, axis)):
         return problem
     if isinstance(field, ListOf):
-        return _rows_problem(field, value, setup)
+        return _rows_problem(field, value, setup, row_axes(item, field))
     return None
 
 
-def _rows_problem(field: ListOf, rows: tuple[Any, ...], setup: Setup) -> str | None:
+def _rows_problem(field: ListOf, rows: tuple[Any, ...], setup: Setup, letters: str) -> str | None:
     if field.most and len(rows) > field.most:
         return f"{field.label}: at most {field.most}"
     for number, row in enumerate(rows):
-        found = (problem_of(row, name, setup) for name in fields_of(row))
+        found = (problem_of(row, name, setup, row_axis(each, letters)) for name, each in fields_of(row).items())
         if problem := next((each for each in found if each), None):
             return f"{field.label}, row {number + 1}: {problem}"
     return None
@@ -342,7 +355,7 @@ def _problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
             context = context_of(instruction, name, setup)
             problem = field.wrong(value, context)
             if problem is None and isinstance(field, ListOf):
-                problem = _rows_problem(field, value, setup)
+                problem = _rows_problem(field, value, setup, row_axes(instruction, field))
             _judge(found, name, field, value, context, problem)
     if any(finding.severity == "error" for finding in found):
         return tuple(sorted(found, key=lambda finding: finding.severity))
@@ -356,9 +369,9 @@ def _problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
 
 
 def _setup_problem(instruction: Instruction, setup: Setup) -> tuple[str, str] | None:
-    """What is wrong in the setup with an instruction that sends the setup."""
+    """What is wrong with it on this machine, or in the setup with an instruction that sends the setup."""
     if not instruction.uses_setup:
-        return None
+        return instruction.setup_problem(setup)
     wrong = (finding.message for finding in setup_problems(setup) if finding.severity == "error")
     return next((("", message) for message in wrong), None)
 
