@@ -182,6 +182,17 @@ class Motion(Moves, Outside):
             self._state[b + layout.LATCH_ARMED] = 0.0
             self._state[b + layout.LATCHED] = self._state[b + layout.ACTUAL]
 
+    def forget(self) -> None:
+        """What the controller loses at a reset, with everything at rest; machine and inputs stay as they are."""
+        state = self._state
+        for axis in range(self.axes):
+            for slot, value in ((layout.LATCH_ARMED, 0.0), (layout.LATCHED, 0.0), (layout.STOP_CODE, 1.0)):
+                state[axis_base(axis) + slot] = value
+        for slot in range(layout.CAM, layout.CAM + layout.CAM_LENGTH * layout.MAXIMUM_AXES):
+            state[slot] = 0.0
+        self.path.set_scale(1.0, 1.0)
+        self.path.set_tangent(0.0, 0.0)
+
     # --- whole state ------------------------------------------------------------------------------------------------
     def snapshot(self) -> Vector:
         """Everything, as one copied array."""

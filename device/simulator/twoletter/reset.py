@@ -38,6 +38,7 @@ def begin(unit: Unit) -> None:
     motion.cam.enable(False)
     motion.contour.open(())
     motion.path.clear()
+    motion.forget()
     for axis in unit.axes():
         motion.motor_off(axis)
     unit.state.outputs = 0
