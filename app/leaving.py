@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QCloseEvent
@@ -13,10 +14,23 @@ from app.connection import Connection
 from app.desk import Desk
 from app.files import Files
 from app.run import Run
+from app.tick import failure_of
+from app.work import questions, work_of
 from device.api import Controller, Kind, State, StopState
 
 TITLE = "Leave Twoletter Studio?"
-THREADS = 4
+PATIENCE_S = 2.0  # four axes and four threads are asked in half a second at 19 200 baud
+UNKNOWN = "What the machine does now is not known."
+
+
+@dataclass(frozen=True)
+class Asking:
+    """The machine was asked what it does, and who wants to know; they hear None when it matters no longer."""
+
+    controller: Controller
+    answer: Future[tuple[float, ...]]
+    until: float
+    then: Callable[[str | None], None]
 
 
 class Leaving(QObject):
@@ -27,34 +41,50 @@ class Leaving(QObject):
     def __init__(self, connection: Connection, run: Run, desk: Desk, files: Files, window: QWidget) -> None:
         super().__init__(window)
         self._connection, self._run, self._desk, self._files, self._window = connection, run, desk, files, window
-        self._agreed = False  # the person leaves it going on; holds until nothing does
+        self._agreed = False  # while the window closes as it was agreed
+        self._asking: Asking | None = None
         self._then: tuple[Controller, Callable[[], object]] | None = None  # once this one has stopped
+        self.left: Controller | None = None  # works, and the person turns away from it all the same
 
     def asked(self, event: QCloseEvent) -> None:
         """The window is to be closed."""
-        words = self.going_on()
-        if self._agreed or not words:
+        words = "" if self._agreed else self._at_once()
+        if words == "":
             self._desk.closing(event, self._files)
             return
         event.ignore()
-        self._put(TITLE, f"{words} Without this window there is no STOP and no F12.", "Stop and leave", self._agree)
+        self.check(self._close)
 
     def careful(self, title: str, go_on: Callable[[], object]) -> None:
         """Turns to something else, after asking when the machine works: STOP reaches only what is connected."""
-        words = self.going_on()
-        if not words:
-            go_on()
+        self.left = None
+
+        def judge(words: str | None) -> None:
+            if words:
+                self._put(title, f"{words} Afterwards STOP and F12 no longer reach it.", "Stop it first", go_on)
+            elif words is not None:
+                go_on()
+
+        self.check(judge)
+
+    def check(self, then: Callable[[str | None], None]) -> None:
+        """Tells, now or soon, what would go on without the studio, as a sentence; nothing when it may go."""
+        self._drop()
+        words = self._at_once()
+        if words is not None:
+            then(words)
             return
-        self._put(title, f"{words} Afterwards STOP and F12 no longer reach it.", "Stop it first", go_on)
+        controller = self._connection.controller
+        answer = controller.read(*questions(controller))
+        self._asking = Asking(controller, answer, controller.clock() + PATIENCE_S, then)
 
-    def _put(self, title: str, words: str, stop: str, go_on: Callable[[], object]) -> None:
-        answers: list[tuple[str, Callable[[], None]]] = [("Leave it running", lambda: go_on() and None)]
-        if not self._run.doing:
-            answers.insert(0, (stop, lambda: self._stop(go_on)))
-        self._desk.ask(title, words, answers, "warning")
+    def _drop(self) -> None:
+        asking, self._asking = self._asking, None
+        if asking is not None:
+            asking.then(None)
 
-    def going_on(self) -> str:
-        """What would go on, or break off, without the studio, as a sentence; nothing when it may go."""
+    def _at_once(self) -> str | None:
+        """The same where it can be told without asking the machine; None where it must be asked."""
         controller = self._connection.controller
         if self._run.doing:
             return f"{self._run.doing.partition(':')[0]} is not finished."
@@ -66,20 +96,11 @@ class Leaving(QObject):
             return "The controller does not answer: whether something moves is not known."
         if controller.resting():
             return "A program may run: live values rest."
-        row = controller.last()
-        if row.stale("thread0", controller.clock()):
-            return "What the machine does now is not known."
-        found = ["a program runs"] if any(row.value(f"thread{number}") >= 0 for number in range(THREADS)) else []
-        moving = [letter for letter in controller.axes if _moves(row.value(f"moving.{letter.lower()}"))]
-        if moving:
-            found.append(f"{' '.join(moving)} {'moves' if len(moving) == 1 else 'move'}")
-        words = ", ".join(found)
-        return f"{words[0].upper()}{words[1:]}." if words else ""
+        return None if controller.state is State.READY else UNKNOWN
 
     def look(self) -> None:
-        """With each tick: goes on once the stop is proved, stays when it is not."""
-        if self._agreed and not self.going_on():
-            self._agreed = False
+        """With each tick: judges what the machine has answered, goes on once a stop is proved."""
+        self._judge()
         if self._then is None:
             return
         controller, go_on = self._then
@@ -92,14 +113,43 @@ class Leaving(QObject):
             self._then = None
             self.said.emit("Not left: the stop is not confirmed.")
 
+    def _judge(self) -> None:
+        asking = self._asking
+        if asking is None:
+            return
+        if asking.controller is not self._connection.controller:
+            self._drop()
+        elif asking.answer.done():
+            self._asking = None
+            failed = failure_of(asking.answer)
+            asking.then(UNKNOWN if failed else work_of(asking.controller, asking.answer.result()).words)
+        elif asking.controller.clock() >= asking.until:
+            self._asking = None
+            asking.then(self._at_once() or UNKNOWN)
+
+    def _put(self, title: str, words: str, stop: str, go_on: Callable[[], object]) -> None:
+        controller = self._connection.controller
+
+        def leave() -> None:
+            self.left = controller
+            go_on()
+
+        answers = [("Leave it running", leave)]
+        if not self._run.doing:
+            answers.insert(0, (stop, lambda: self._stop(go_on)))
+        self._desk.ask(title, words, answers, "warning")
+
     def _stop(self, go_on: Callable[[], object]) -> None:
         self._then = (self._connection.controller, go_on)
         self._connection.stop()
 
+    def _close(self, words: str | None) -> None:
+        if words:
+            self._put(TITLE, f"{words} Without this window there is no STOP and no F12.", "Stop and leave", self._agree)
+        elif words is not None:
+            self._agree()
+
     def _agree(self) -> None:
         self._agreed = True
         self._window.close()
-
-
-def _moves(value: float) -> bool:
-    return math.isfinite(value) and value != 0
+        self._agreed = False

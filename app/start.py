@@ -13,7 +13,7 @@ from app.connection import Connection, Opened
 from app.leaving import Leaving
 from app.search import Candidate, Search
 from app.settings import Settings
-from device.api import Controller, Kind, State
+from device.api import Kind, State
 from device.transport import LineSettings
 
 if TYPE_CHECKING:
@@ -43,7 +43,6 @@ class Start(QObject):
         super().__init__(parent)
         self._connection, self._search, self._settings = connection, search, settings
         self._ports, self._model, self._leaving, self._window = ports, model, leaving, parent
-        self._left: Controller | None = None  # works on, and the person turns away from it all the same
         self.welcome: Welcome | None = None
         self.serial: SerialSetup | None = None
         search.looking.connect(self._looking)
@@ -53,7 +52,6 @@ class Start(QObject):
 
     def look(self) -> None:
         """Shows the welcome window and looks for a controller, after asking when the one that is connected works."""
-        self._left = self._connection.controller if self._leaving.going_on() else None
         self._leaving.careful("Look for another controller?", self._look)
 
     def _look(self) -> None:
@@ -180,13 +178,19 @@ class Start(QObject):
 
     def _found(self, candidate: Candidate, opened: Opened) -> None:
         self._remember(candidate.device)
-        working = self._leaving.going_on()  # begun while the search went on
-        if working and self._left is not self._connection.controller:
-            opened.controller.close()
-            self._nothing(f"A controller answers at {candidate.device}, but the other one works. {working}")
+        if self._leaving.left is self._connection.controller:
+            self._take(candidate, opened, "")
+        else:  # it may have begun to work while the search went on
+            self._leaving.check(partial(self._take, candidate, opened))
+
+    def _take(self, candidate: Candidate, opened: Opened, working: str | None) -> None:
+        if working == "":
+            self._connection.adopt(opened, candidate.device)
+            self._done()
             return
-        self._connection.adopt(opened, candidate.device)
-        self._done()
+        opened.controller.close()
+        if working:
+            self._nothing(f"A controller answers at {candidate.device}, but the other one works. {working}")
 
     def _looking(self, sentence: str) -> None:
         if self.welcome is not None:

@@ -7,31 +7,41 @@ from collections.abc import Callable
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QCloseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QPushButton, QToolButton
 
 from app.search import Candidate
 from codegen.instructions import Wait
 from codegen.program import replace
-from device.api import Badge, State, StopState
+from device.api import Badge, Kind, State, StopState
 from tests.stage import Stage
+from widgets.parts.question import Question
 
 JOG = "#A\nJG 5000\nBGX\n#B\nJP #B\n"
 
 
 def answer(stage: Stage, words: str) -> None:
-    question = stage.studio.desk.question
-    assert question is not None and question.isVisible()
-    next(button for button in question.findChildren(QPushButton) if button.text() == words).click()
+    buttons = asked(stage).findChildren(QPushButton)
+    QTest.mouseClick(next(each for each in buttons if each.text() == words), Qt.MouseButton.LeftButton)
 
 
 def close(stage: Stage) -> bool:
-    """Whether the window let itself be closed."""
-    stage.studio.window.show()
-    event = QCloseEvent()
-    stage.studio.window.closeEvent(event)
-    return event.isAccepted()
+    """Presses Exit; whether the window has closed, after as much time as the machine needs for its answers."""
+    window, desk = stage.studio.window, stage.studio.desk
+    window.show()
+    desk.question = None
+    button = next(each for each in window.header.findChildren(QToolButton) if each.text() == "Exit")
+    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+    stage.until(lambda: not window.isVisible() or desk.question is not None, 5.0)
+    return not window.isVisible()
+
+
+def asked(stage: Stage) -> Question:
+    """The question, once the machine has told what it does."""
+    stage.until(lambda: stage.studio.desk.question is not None, 5.0)
+    question = stage.studio.desk.question
+    assert question is not None and question.isVisible()
+    return question
 
 
 def running_machine(stage: Stage) -> None:
@@ -44,8 +54,7 @@ def running_machine(stage: Stage) -> None:
 def test_closing_in_mid_move_asks_and_nothing_is_closed(stage: Stage) -> None:
     running_machine(stage)
     assert not close(stage)
-    question = stage.studio.desk.question
-    assert question is not None and question.isVisible()
+    assert asked(stage).words == "A program runs, X moves. Without this window there is no STOP and no F12."
 
 
 def test_stop_and_leave_leaves_only_after_the_confirmed_stop(stage: Stage) -> None:
@@ -113,10 +122,7 @@ def test_turning_away_in_mid_move_asks_and_keeps_the_connection(stage: Stage, wa
     prepare(stage)
     machine, opened = stage.controller, len(stage.controllers)
     {**WAYS_OUT, **LOOKING}[way](stage)
-    stage.go()
-    question = stage.studio.desk.question
-    assert question is not None and question.isVisible()
-    assert question.words == "A program runs, X moves. Afterwards STOP and F12 no longer reach it."
+    assert asked(stage).words == "A program runs, X moves. Afterwards STOP and F12 no longer reach it."
     assert stage.controller is machine
     assert len(stage.controllers) == opened
     answer(stage, "Cancel")
@@ -155,6 +161,7 @@ def test_a_stop_that_is_not_confirmed_turns_away_from_nothing(stage: Stage, way:
     prepare(stage)
     rig = stage.rig
     {**WAYS_OUT, **LOOKING}[way](stage)
+    asked(stage)
     rig.cut()
     answer(stage, "Stop it first")
     stage.later(0.6)  # 0.5 s without an answer
@@ -171,8 +178,8 @@ def test_a_machine_at_rest_is_turned_away_from_without_a_question(stage: Stage, 
     prepare(stage)
     machine = stage.controller
     WAYS_OUT[way](stage)
+    stage.until(lambda: stage.controller is not machine, 5.0)
     assert stage.studio.desk.question is None
-    assert stage.controller is not machine
 
 
 def at_port(stage: Stage, device: str, *others: str) -> None:
@@ -189,6 +196,7 @@ def test_looking_again_leaves_the_port_of_the_connected_machine_alone(stage: Sta
     stage.silent.add("/dev/ttyS1")
     machine = stage.controller
     stage.studio.actions["connect"].trigger()
+    stage.until(lambda: stage.studio.search.busy)
     assert stage.studio.desk.question is None
     assert stage.controllers[:-1] == [machine]  # one more was opened, for the other port
     stage.until(lambda: not stage.studio.search.busy)
@@ -203,6 +211,7 @@ def test_without_another_port_looking_again_says_so(stage: Stage) -> None:
     stage.until(lambda: stage.controller.last().value("moving.x") == 0)
     at_port(stage, "/dev/ttyS0")
     stage.studio.actions["connect"].trigger()
+    stage.until(lambda: stage.studio.start.welcome is not None)
     assert "no other serial port" in stage.studio.start.welcome_window().sentence.text()
     assert stage.controller.state is State.READY
 
@@ -212,14 +221,14 @@ def test_a_program_that_starts_during_the_search_is_not_left_by_what_is_found(st
     stage.until(lambda: stage.controller.last().value("moving.x") == 0)
     at_port(stage, "/dev/ttyS0", "/dev/ttyS1")
     stage.studio.actions["connect"].trigger()
+    stage.until(lambda: stage.studio.search.busy)
     other = stage.rigs[-1]
     other.loopback.unplugged = True  # answers late
     rig.simulation.execute(0)
     stage.until(lambda: rig.controller.last().value("moving.x") == 1)
     other.loopback.unplugged = False
-    stage.until(lambda: not stage.studio.search.busy)
+    stage.until(lambda: other.closed)
     assert stage.controller is rig.controller
-    assert other.closed
     words = stage.studio.start.welcome_window().sentence.text()
     assert "/dev/ttyS1" in words and "A program runs, X moves." in words
 
@@ -242,8 +251,7 @@ def test_a_machine_that_does_not_answer_is_given_up_before_its_port_is_tried(sta
     rig.cut()
     stage.until(lambda: stage.controller.state is State.LOST)
     stage.studio.actions["connect"].trigger()
-    assert stage.studio.desk.question is not None
-    assert "whether something moves is not known" in stage.studio.desk.question.words
+    assert "whether something moves is not known" in asked(stage).words
     answer(stage, "Leave it running")
     assert rig.closed  # a port can be open only once
     stage.until(lambda: stage.controller.state is State.READY)
@@ -293,12 +301,44 @@ def test_another_document_carries_no_marks_of_the_program_that_runs(stage: Stage
     assert stage.studio.program.delegate.executing == {}
 
 
-def test_values_that_are_too_old_do_not_say_that_nothing_moves(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_was_just_begun_is_seen_though_no_reading_shows_it_yet(stage: Stage) -> None:
     controller = stage.connect("machine", "ssc1").controller
+    controller.take_control()
     stage.until(lambda: controller.last().value("moving.x") == 0)
-    assert stage.studio.leaving.going_on() == ""
-    old = controller.last()
-    stage.later(10.0)
-    monkeypatch.setattr(controller, "last", lambda: old)
-    assert controller.state is State.READY
-    assert stage.studio.leaving.going_on() == "What the machine does now is not known."
+    for command in ("JG 5000", "BG X"):
+        controller.ask(command)
+    assert controller.last().value("moving.x") == 0
+    assert not close(stage)
+    assert asked(stage).words.startswith("X moves.")
+
+
+def test_a_coordinated_motion_is_a_motion(stage: Stage) -> None:
+    rig = stage.connect("machine", "ssc2")
+    rig.controller.take_control()
+    for command in ("VS 1000", "VA 256000", "VD 256000", "LM XY", "LI 4000,3000", "LE", "BG S"):
+        rig.controller.ask(command)
+    stage.until(lambda: rig.simulation.state()["axes"]["X"]["commanded"] > 100)
+    assert not close(stage)
+    assert "coordinated motion goes on" in asked(stage).words
+    answer(stage, "Cancel")
+    stage.until(lambda: rig.simulation.state()["axes"]["X"]["commanded"] == 4000)
+    stage.go(30)
+    assert close(stage)
+
+
+def test_a_machine_that_does_not_tell_in_time_is_not_taken_for_resting(stage: Stage) -> None:
+    rig = stage.connect("machine", "ssc1")
+    stage.until(lambda: rig.controller.last().value("moving.x") == 0)
+    rig.cut()
+    assert rig.controller.state is State.READY
+    assert not close(stage)
+    assert "not known" in asked(stage).words
+
+
+def test_the_newest_wish_counts(stage: Stage) -> None:
+    rig = stage.connect("machine", "ssc1")
+    stage.until(lambda: rig.controller.last().value("moving.x") == 0)
+    stage.studio.actions["disconnect"].trigger()
+    stage.studio.actions["simulator"].trigger()  # before the machine has answered
+    stage.until(lambda: stage.controller is not rig.controller, 5.0)
+    assert stage.controller.kind is Kind.SIMULATOR

@@ -1,0 +1,53 @@
+"""What a controller is doing: the threads that run and the axes that move, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from device.api import Controller
+
+SEQUENCE = "S"  # a coordinated motion, as BG and ST name it
+
+
+@dataclass(frozen=True)
+class Work:
+    """Threads by number, with the line each is on, and letters of what moves."""
+
+    threads: tuple[tuple[int, int], ...] = ()
+    moving: str = ""
+
+    @property
+    def words(self) -> str:
+        """As a sentence; nothing when it rests."""
+        axes = self.moving.replace(SEQUENCE, "")
+        found = ["a program runs"] if self.threads else []
+        found += [f"{' '.join(axes)} {'moves' if len(axes) == 1 else 'move'}"] if axes else []
+        found += ["a coordinated motion goes on"] if SEQUENCE in self.moving else []
+        words = ", ".join(found)
+        return f"{words[0].upper()}{words[1:]}." if words else ""
+
+
+def questions(controller: Controller) -> tuple[str, ...]:
+    """The operands that tell it."""
+    return (
+        *(f"_XQ{number}" for number in range(_threads(controller))),
+        *(f"_BG{each}" for each in _motions(controller)),
+    )
+
+
+def work_of(controller: Controller, values: Sequence[float]) -> Work:
+    """What the answers to these questions mean."""
+    count = _threads(controller)
+    threads = tuple((number, int(line)) for number, line in enumerate(values[:count]) if line >= 0)
+    moving = [each for each, value in zip(_motions(controller), values[count:], strict=True) if value]
+    return Work(threads, "".join(moving))
+
+
+def _threads(controller: Controller) -> int:
+    return controller.model.threads if controller.model is not None else 1
+
+
+def _motions(controller: Controller) -> str:
+    coordinated = controller.model is not None and controller.model.coordinated
+    return controller.axes + (SEQUENCE if coordinated else "")
