@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QShowEvent
+from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDialog,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QLineEdit,
@@ -35,6 +34,19 @@ class SectionButtons(Buttons):
 
     def _say(self) -> None:
         self.changed.emit(self.chosen()[0])
+
+
+class GroupBar(QWidget):
+    """The colour of a group of instructions, in the theme that is on now."""
+
+    def __init__(self, group: str) -> None:
+        super().__init__()
+        self.group = group
+        self.setFixedWidth(4)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Fills itself."""
+        QPainter(self).fillRect(self.rect(), look().group(self.group))
 
 
 class InstructionDialog(QDialog):
@@ -75,12 +87,6 @@ class InstructionDialog(QDialog):
     # ---- looks
 
     def _lay_out(self, instruction: Instruction, where: str) -> None:
-        bar = QFrame()
-        bar.setFixedWidth(4)
-        bar.setAutoFillBackground(True)
-        palette = bar.palette()
-        palette.setColor(bar.backgroundRole(), look().group(str(instruction.group)))
-        bar.setPalette(palette)
         title = QLabel(instruction.title)
         title.setProperty("role", "title")
         self.place = QLabel(where)
@@ -98,7 +104,7 @@ class InstructionDialog(QDialog):
         words.addWidget(about)
         heading = QHBoxLayout()
         heading.setSpacing(12)
-        heading.addWidget(bar)
+        heading.addWidget(GroupBar(str(instruction.group)))
         heading.addLayout(words, 1)
         self.column = column = QVBoxLayout(self)
         column.setContentsMargins(16, 12, 16, 12)

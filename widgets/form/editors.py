@@ -276,6 +276,7 @@ class FlagEditor(QCheckBox):
 
     def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
         super().__init__(field.label, parent)
+        self.setProperty("role", "field")  # in line with the fields above and below
         self.setMinimumHeight(look().control)
         self.toggled.connect(lambda on: self.changed.emit(on))
 
