@@ -66,6 +66,52 @@ def test_a_second_client_takes_over() -> None:
         assert first.recv(10) == b""
 
 
+def test_two_clients_on_ports_1_and_2() -> None:
+    program = b'DL\r#A\rCI ,1\r#B\rJP#B\r#COMINT\rMG{P2}"GOT",P2NM{F4.0}\rEN0,1\r\\'
+    with SimulatorProcess("ssc2", port2="127.0.0.1:0") as simulator:
+        host, operator = connect(simulator.address), connect(simulator.address2)
+        host.sendall(program)
+        assert until(host, b":") == b":"
+        host.sendall(b"XQ #A\r")
+        assert until(host, b":") == b":"
+        for number in range(1, 6):
+            operator.sendall(f"{number}\r".encode())
+            host.sendall(f"MG {number}{{F2.0}}\r".encode())
+            assert until(operator, b"\r\n") == f"GOT {number:04d}\r\n".encode()
+            assert until(host, b":") == f" {number:02d}\r\n:".encode()
+        operator.sendall(b"TPX\r")  # no command there (SSC manual l.1243)
+        assert until(operator, b"\r\n") == b"GOT 0000\r\n"
+        again = connect(simulator.address2)
+        again.sendall(b"9\r")
+        assert until(again, b"\r\n") == b"GOT 0009\r\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
+def test_port_2_on_a_pseudo_terminal() -> None:
+    import os
+    import select
+
+    with SimulatorProcess("ssc1", port2="pty") as simulator:
+        host = connect(simulator.address)
+        terminal = os.open(simulator.address2, os.O_RDWR | os.O_NOCTTY)
+        host.sendall(b'MG{P2}"HELLO"\r')
+        assert until(host, b":") == b":"
+        data = b""
+        while not data.endswith(b"\n"):
+            assert select.select([terminal], [], [], 5)[0]
+            data += os.read(terminal, 100)
+        os.close(terminal)
+        assert data == b"HELLO\r\n"
+
+
+def test_port_2_of_a_chain_is_that_of_its_last_controller() -> None:
+    with SimulatorProcess("dmc1412", chain=3, port2="127.0.0.1:0") as simulator:
+        host, end = connect(simulator.address), connect(simulator.address2)
+        host.sendall(b'%2\rMG{P2}"END"\r')
+        assert until(host, b"::") == b"::"
+        assert until(end, b"\r\n") == b"END\r\n"
+
+
 def test_real_time_is_kept() -> None:
     with SimulatorProcess("ssc1") as simulator:
         client = connect(simulator.address)
