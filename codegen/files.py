@@ -131,15 +131,15 @@ def _pretty(value: Any, indent: str, open_lists: bool = True) -> str:
 
 def save(path: str | Path, document: Document) -> None:
     """Writes a `.tlp` file; a crash leaves the old one whole."""
-    _save(Path(path), dumps(document))
+    save_text(path, dumps(document))
 
 
 def save_setup(path: str | Path, setup: Setup) -> None:
     """Writes a `.tls` file; a crash leaves the old one whole."""
-    _save(Path(path), setup_dumps(setup))
+    save_text(path, setup_dumps(setup))
 
 
-def _save(path: Path, text: str) -> None:
+def save_text(path: str | Path, text: str) -> None:
     """Writes beside the file, then takes its place (also behind a symbolic link), keeping its permissions."""
     path = Path(os.path.realpath(path))
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")

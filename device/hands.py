@@ -31,10 +31,11 @@ class Memory:
         download = Download(
             listing, job, model=c.model, line=c.line, nonces=c.nonces, clock=c.clock, folder=c.program_folder
         )
-        job.future = c.run(self._downloading(download), Priority.DOWNLOAD, "download")
+        job.future = c.run(self.downloading(download), Priority.DOWNLOAD, "download")
         return job
 
-    def _downloading(self, download: Download) -> Steps[Downloaded]:
+    def downloading(self, download: Download) -> Steps[Downloaded]:
+        """The steps of a download, as part of a longer task as well."""
         c = self._c
         c.motion.release()
         if not c.control:
