@@ -25,7 +25,7 @@ from codegen.fields import (
     joined,
 )
 from codegen.instructions.instruction import Instruction
-from codegen.setup import Finding, Setup, setup_problems
+from codegen.setup import Finding, Setup, never_set_up, setup_problems
 
 MISSING = "…"
 
@@ -290,11 +290,20 @@ def problem_of(item: Any, name: str, setup: Setup, axis: str = "") -> str | None
     value = getattr(item, name)
     if isinstance(field, PerAxis) and axis:
         return field.problem_of(value, axis, Context(setup, axis))
-    if problem := field.problem(value, context_of(item, name, setup, axis)):
+    context = context_of(item, name, setup, axis)
+    if not field.empty(value) and (absent := _absent(field, context)):
+        return f"{field.label}: this controller has no axis {absent}"
+    if problem := field.problem(value, context):
         return problem
     if isinstance(field, ListOf):
         return _rows_problem(field, value, setup, row_axes(item, field))
     return None
+
+
+def _absent(field: Field, context: Context) -> str:
+    """The axis that the controller lacks, of those a value belongs to: it has no scale to count with."""
+    letters = context.axis if isinstance(field, Quantity) else ""
+    return next((letter for letter in letters if letter not in context.setup.letters), "")
 
 
 def _rows_problem(field: ListOf, rows: tuple[Any, ...], setup: Setup, letters: str) -> str | None:
@@ -308,11 +317,18 @@ def _rows_problem(field: ListOf, rows: tuple[Any, ...], setup: Setup, letters: s
 
 
 def warning_of(item: Any, name: str, setup: Setup, axis: str = "") -> str | None:
-    """A warning where rounding changes a value by more than 0.1 %."""
+    """A warning where nobody set the scale up, or where rounding changes a value by more than 0.1 %."""
     field, value = _inner(item, name, axis)
     if isinstance(field, PerAxis | ListOf) or field.empty(value) or not is_shown(item, name):
         return None
-    counts = field.counts(value, context_of(item, name, setup, axis))
+    context = context_of(item, name, setup, axis)
+    if _absent(field, context):
+        return None  # that is its problem
+    if isinstance(field, Quantity) and setup.converts(field.dimension):
+        unscaled = (letter for letter in context.axis if not setup.axis(letter).is_set_up)
+        if letter := next(unscaled, ""):
+            return never_set_up(setup, letter)
+    counts = field.counts(value, context)
     return counts.warning if counts else None
 
 
@@ -382,7 +398,7 @@ def _judge(
     """Notes what is wrong with one value, or that rounding changes it."""
     if problem:
         found.append(Finding(name, problem, "error", axis))
-    elif field.warns:
+    elif field.warns and not _absent(field, context):
         counts = field.counts(value, context)
         if counts is not None and counts.warning:
             found.append(Finding(name, counts.warning, "warning", axis))

@@ -279,7 +279,8 @@ class Setup:
                 return self._symbol(letter)
 
     def _symbol(self, letter: str) -> str:
-        return self.axis(letter).symbol if letter else "units"
+        """Of an axis the controller lacks nothing is known."""
+        return self.axis(letter).symbol if letter and letter in self.letters else "units"
 
 
 def _channel(text: str, names: tuple[str, ...]) -> int | None:

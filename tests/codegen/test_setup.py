@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import pickle
 from fractions import Fraction
 from math import floor
@@ -10,10 +11,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from codegen import read
 from codegen.document import Document
 from codegen.fields import Dimension
 from codegen.generate import generate
-from codegen.instructions import SingleAxisMove, Wait
+from codegen.instructions import AccelDecel, SingleAxisMove, Wait
 from codegen.program import Program, Step
 from codegen.setup import Axis, Setup, Unit, setup_problems
 
@@ -110,6 +112,27 @@ def test_a_program_tells_once_of_a_scale_never_set_up() -> None:
     moves = tuple(Step(f"s{place}", SingleAxisMove(distance="100", speed="50")) for place in range(3))
     (finding,) = generate(Document(Program("P", main=moves), Setup(model="ssc1"))).problems
     assert (finding.step, finding.severity) == ("s0", "warning") and "never set up" in finding.message
+
+
+def test_a_field_of_an_axis_the_controller_lacks_says_so_and_counts_nothing() -> None:
+    move, small = SingleAxisMove(axis="Y", distance="10", speed="5"), one("637")
+    for name in ("distance", "speed"):
+        assert str(read.problem_of(move, name, small)).endswith("this controller has no axis Y")
+        assert read.counts_text(move, name, small) == ""
+        assert read.unit_text(move, name, small).startswith("units")
+    assert "10 units at 5 units/s" in read.sentence(move, small)
+    assert [finding.message for finding in read.problems(move, small)] == ["Axis: this controller has no axis Y"]
+
+
+def test_a_field_of_an_axis_without_a_scale_says_what_it_is_taken_for() -> None:
+    move, setup = (
+        SingleAxisMove(axis="Y", distance="10", speed="8"),
+        Setup(model="ssc4").with_axis("X", one("637").axis("X")),
+    )
+    told = "Axis Y: the scale was never set up (1 count is taken as 1 in)"
+    assert [read.warning_of(move, name, setup) for name in ("distance", "speed")] == [told, told]
+    assert read.warning_of(AccelDecel(acceleration=("1024", "2048", "", "")), "acceleration", setup, "Y") == told
+    assert read.warning_of(dc.replace(move, axis="X", distance="10"), "distance", setup) is None
 
 
 def test_names_are_no_numbers() -> None:
