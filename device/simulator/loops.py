@@ -148,11 +148,11 @@ class ThriftyLoop(SampleLoop):
         while done < samples:
             if self._spent >= self._limit and self._compiled():
                 return done + self.run(state, trace, samples - done)
-            events, most = state[layout.EVENTS], min(CHUNK, samples - done)
+            events, full, most = state[layout.EVENTS], trace_full(state), min(CHUNK, samples - done)
             began = time.perf_counter()
             done += self._loop(state, trace, most)
             self._spent += time.perf_counter() - began
-            if ended(state, events):
+            if ended(state, events) or (trace_full(state) and not full):
                 break
         return done
 
@@ -173,9 +173,7 @@ class ThriftyLoop(SampleLoop):
 
 def ended(state: Vector, events: float) -> bool:
     """The loop had a reason to end after its last sample."""
-    if state[layout.TRIPS] > 0.0 or state[layout.EVENTS] != events or state[layout.GUARD_BROKEN] != 0.0:
-        return True
-    return trace_full(state)
+    return bool(state[layout.TRIPS] > 0.0 or state[layout.EVENTS] != events or state[layout.GUARD_BROKEN] != 0.0)
 
 
 def trace_full(state: Vector) -> bool:

@@ -140,7 +140,7 @@ def advance(S: State, trace: State, n: int) -> int:
         test_watches(S)
         if S[GUARDS] > 0.0:
             test_guards(S)
-        if S[TRACE_CAPACITY] > 0.0:
+        if S[TRACE_ROWS] < S[TRACE_CAPACITY]:  # a full trace takes no more until it is cleared
             S[TRACE_COUNTDOWN] -= 1.0
             if S[TRACE_COUNTDOWN] <= 0.0:
                 S[TRACE_COUNTDOWN] = S[TRACE_EVERY]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy
+import pytest
 
 from device.simulator.motion import Motion, Register
 
@@ -36,6 +37,15 @@ def test_every_nth_and_full() -> None:
     assert motion.run(1000) == 40
     motion.trace(0)
     assert motion.run(1000) == 1000
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_a_full_trace_takes_no_more(compiled: bool) -> None:
+    motion = Motion(1, compiled=compiled)
+    motion.trace(10)
+    assert [motion.run(100), motion.run(100)] == [10, 100]  # it ends the run that fills it, and no other
+    assert len(motion.trace_rows()) == 10
+    assert motion.trace_rows()[-1, 0] == 10
 
 
 def test_the_memory_is_used_again() -> None:
