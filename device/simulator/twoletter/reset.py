@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import ONE, scaled
 from device.simulator.motion import Register
@@ -12,6 +12,8 @@ from device.simulator.twoletter.state import fresh
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
+
+CHECK_SUM_ERROR: Final = 14
 
 
 def power_up(unit: Unit) -> None:
@@ -70,6 +72,8 @@ def _load(unit: Unit) -> None:
     parameters = unit.eeprom.part("parameters")
     if parameters is not None:
         motors_on = burned.load_parameters(unit, parameters)
+    if unit.eeprom.damaged:
+        state.error_code = CHECK_SUM_ERROR
     burned.load_variables(unit)
     unit.set_program(tuple(unit.eeprom.part("program") or ()))
     _start_motion(unit, motors_on)
