@@ -185,7 +185,11 @@ class State:
 
     def waiting(self) -> list[Strand]:
         """Those that wait for something."""
-        return [strand for strand in self.strands() if strand.wait is not None]
+        found: list[Strand] = [thread for thread in self.threads if thread.wait is not None]
+        for port in self.ports:
+            if port.wait is not None:
+                found.append(port)
+        return found
 
 
 def fresh(model: Model) -> State:

@@ -53,13 +53,11 @@ class Interpreter:
         clock = self.unit.clock
         if clock.tick + clock.period <= clock.now:
             clock.catch_up(clock.now)
-        if target < clock.tick + clock.period:
-            clock.now = target
-            return False
-        if clock.sync(clock.tick + clock.period if self._alarmed else target) or self._alarmed:
-            clock.now = max(clock.now, clock.tick)
-            if self._after_sample() or clock.tick + clock.period <= target:
-                return True
+        while target >= clock.tick + clock.period:
+            if clock.sync(clock.tick + clock.period if self._alarmed else target) or self._alarmed:
+                clock.now = max(clock.now, clock.tick)
+                if self._after_sample():
+                    return True
         clock.now = target
         return False
 
