@@ -1,4 +1,4 @@
-"""What the manuals state about time, memory and answers holds on the simulator."""
+"""What the manuals state about time, memory, programs and answers holds on the simulator."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import pytest
 
 from tests.examples.script import Example, Player, read_examples
 
-STATEMENTS = read_examples(Path(__file__).with_name("behaviour.txt"))
+HERE = Path(__file__).parent
+STATEMENTS = [each for name in ("behaviour", "program") for each in read_examples(HERE / f"{name}.txt")]
 
 
 @pytest.mark.parametrize("statement", STATEMENTS, ids=str)
