@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from app.disk import Disk
 from widgets.panel import set_text
@@ -36,11 +36,16 @@ class FileBar(QFrame):
             "Save as…": ("Saves what is open here under another name", self.save_as),
             "Keep mine": ("Goes on with what is open here; Save asks before it overwrites the file", None),
         }
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 6, 12, 6)
+        row = QHBoxLayout()
         row.setSpacing(8)
-        row.addWidget(drawing)
-        row.addWidget(self.text, 1)
+        row.addStretch(1)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(12, 8, 12, 8)
+        grid.setHorizontalSpacing(12)
+        grid.setColumnStretch(1, 1)
+        grid.addWidget(drawing, 0, 0, Qt.AlignmentFlag.AlignTop)
+        grid.addWidget(self.text, 0, 1)
+        grid.addLayout(row, 1, 0, 1, 2)
         self.buttons: dict[str, QPushButton] = {}
         for words, (help_text, signal) in buttons.items():
             button = self.buttons[words] = QPushButton(words)

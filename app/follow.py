@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject
 from app.actions import Actions
 from app.connection import Connection
 from app.facts import Facts
-from app.homed import Homed
+from app.homed import Homed, is_stepper
 from app.run import Run
 from app.session import Session
 from app.tick import Tick, failure_of
@@ -24,7 +24,7 @@ from codegen.twoletter.problems import ERROR_TEXTS
 from device.api import Badge, Kind, NoticeKind, Row, State, StopState
 from device.download import program_lines
 from widgets.display.display import DisplayPanel
-from widgets.display.readings import age_of, fresh
+from widgets.display.readings import age_of, fresh, rate_words, unit_of
 from widgets.display.threads import thread_words
 from widgets.panel import Panel
 from widgets.parts.units import shown
@@ -100,7 +100,7 @@ class Follow(QObject):
     def _watch(self) -> None:
         """What the status bar and the executing line need, whatever is visible."""
         controller = self._connection.controller
-        wanted = (controller, controller.axes, controller.state)
+        wanted = (controller, controller.axes, controller.state, self._session.document.setup)
         if wanted == self._watched:
             return
         self._watched = wanted
@@ -108,8 +108,10 @@ class Follow(QObject):
             threads = controller.model.threads if controller.model is not None else 1
             first = controller.axes[:1].lower()
             keys = [f"thread{number}" for number in range(threads)]
-            for letter in controller.axes.lower():  # leaving asks for the first; the other two tell what is homed
-                keys += [f"moving.{letter}", f"stop_code.{letter}", f"motor_off.{letter}"]
+            for letter in controller.axes.lower():  # leaving asks for the first, the other tells what is homed
+                keys += [f"moving.{letter}", f"stop_code.{letter}"]
+            setup = self._session.document.setup
+            keys += [f"motor_off.{letter.lower()}" for letter in controller.axes if is_stepper(setup.axis(letter))]
             controller.watch(OWNER, [*keys, *([f"position.{first}"] if first else [])])
 
     def _status(self, row: Row) -> None:
@@ -127,7 +129,9 @@ class Follow(QObject):
             axis = self._session.document.setup.axis(letter)
             key = f"position.{letter.lower()}"
             age = age_of(row, key, now)
-            status.show_position(f"{letter} {shown(row.value(key), axis)} {axis.symbol}" + (f" ({age})" if age else ""))
+            status.show_position(
+                f"{letter} {shown(row.value(key), axis)} {unit_of(axis)}" + (f" ({age})" if age else "")
+            )
 
     def _link_words(self) -> str:
         controller = self._connection.controller
@@ -138,7 +142,7 @@ class Follow(QObject):
         said = controller.identity.text if controller.identity is not None else ""
         name = controller.model.name.upper() if controller.model is not None else said or "controller"
         baud = f" · {controller.line.baud:,} baud".replace(",", " ") if controller.line.baud else ""
-        reads = f"{controller.rate_hz:.0f} reads/s" if controller.polling else controller.polling_text
+        reads = rate_words(controller.rate_hz) if controller.polling else controller.polling_text
         return f"{name}{baud} · {reads}"
 
 

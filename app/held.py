@@ -50,8 +50,8 @@ class Held:
         count = f"{len(self.lines)} line{'s' * (len(self.lines) != 1)}"
         if self.sent is not None:
             return f"“{self.sent.name}” as it was downloaded at {self.sent.time} ({count})"
-        label = next((name for name in self.labels if name != "AUTO"), "")
-        return f"a program that is not the open one ({count}{f', first label #{label}' if label else ''})"
+        label = f", first label #{self.labels[0]}" if self.labels else ""
+        return f"another program than the open one ({count}{label})"
 
     @property
     def shown(self) -> str:
@@ -98,7 +98,7 @@ def burn_words(held: Held, name: str) -> str:
     if held.holding is Holding.EARLIER:
         what = f"{held.words}, without the changes since then: they are not in the controller"
     else:
-        what = f"not the open program but what the controller holds: {held.words}"
+        what = f"what the controller holds: {held.words}"
     return f"What is burned is {what}. {held.power_up}\n\n{held.shown}"
 
 

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from codegen.setup import MotorType, Setup
+from codegen.setup import Axis, MotorType, Setup
 from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse_line
 from device.api import Controller, NoticeKind, Row
@@ -69,8 +69,7 @@ class Homed:
             self.marks.setdefault(letter, Mark(False, NEVER))
             self._read_code(letter, row)
             off = f"motor_off.{letter.lower()}"
-            stepper = setup.axis(letter).motor not in SERVOS
-            if stepper and row.value(off) == 1 and row.time(off) > self._after:
+            if is_stepper(setup.axis(letter)) and row.value(off) == 1 and row.time(off) > self._after:
                 self._lose(letter, "its stepper motor was switched off")
         self._hear_lines(controller)
 
@@ -100,6 +99,11 @@ class Homed:
     def _lose(self, letter: str, why: str) -> None:
         if self.marks.get(letter, Mark(False, "")).homed:
             self.marks[letter] = Mark(False, why)
+
+
+def is_stepper(axis: Axis) -> bool:
+    """Whether its motor keeps no count of its own while it is off."""
+    return axis.motor not in SERVOS
 
 
 def _defined(line: str, axes: str) -> str:

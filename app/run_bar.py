@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolBar, QWidget
 
 from app.header import tool_bar
@@ -13,26 +14,32 @@ BADGES = {
     Holding.SAME: (
         "ok",
         "✓ In the controller",
+        "✓ Same",
         "The controller holds exactly the open program: what was read from it is the same line by line. "
         "Execute runs it.",
     ),
     Holding.EARLIER: (
         "warning",
         "≠ Changed since",
+        "≠ Changed",
         "The controller holds {held}, before the changes since. Execute asks which one is meant; Download sends it.",
     ),
     Holding.OTHER: (
         "warning",
         "≠ Another program",
+        "≠ Other",
         "The controller holds {held}. Execute belongs to the verified one: it asks before anything runs.",
     ),
-    Holding.EMPTY: ("warning", "○ No program", "There is no program in the controller: download this one."),
+    Holding.EMPTY: ("warning", "○ No program", "○ Empty", "There is no program in the controller: download this one."),
     Holding.UNKNOWN: (
         "quiet",
+        "? Not known",
         "? Not known",
         "What is in the controller is not known: download, or upload to look at it.",
     ),
 }
+
+ROOM = 32  # px: margins and the space between
 
 
 class RunBar(QWidget):
@@ -56,11 +63,25 @@ class RunBar(QWidget):
 
     def show_held(self, held: Held | None) -> None:
         """None: nothing is connected, nothing to compare with."""
-        if held == self._shown:
-            return
-        self._shown = held
-        role, words, help_text = BADGES[held.holding] if held is not None else ("quiet", "", "")
-        set_text(self.badge, words)
+        if held != self._shown:
+            self._shown = held
+            self._show_badge()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._show_badge()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """The buttons are never cut off: their texts are what is pressed."""
+        super().showEvent(event)
+        self.toolbar.setMinimumWidth(self.toolbar.sizeHint().width())
+
+    def _show_badge(self) -> None:
+        """The words in full where there is room for them, else in short."""
+        held = self._shown
+        role, words, short, help_text = BADGES[held.holding] if held is not None else ("quiet", "", "", "")
+        needed = self.toolbar.sizeHint().width() + self.badge.fontMetrics().horizontalAdvance(words) + ROOM
+        set_text(self.badge, words if needed <= self.width() else short)
         self.badge.setToolTip(help_text.format(held=held.words) if held is not None else "")
         self.badge.setAccessibleName(f"Program in the controller: {words}")
         show_role(self.badge, role)

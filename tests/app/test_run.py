@@ -243,7 +243,7 @@ def test_burn_of_another_program_says_which_and_whether_it_starts(
     stage.until(lambda: stage.studio.desk.question is not None)
     words, answers = asked(stage)
     count = program.count("\n") + 1
-    assert f"not the open program but what the controller holds: a program that is not the open one ({count} " in words
+    assert f"What is burned is what the controller holds: another program than the open one ({count} " in words
     assert starts in words
     assert program.split("\n")[1] in words  # its code is shown
     assert set(answers) == {"Download first", "Burn"}
@@ -345,26 +345,26 @@ def test_a_call_that_is_not_allowed_is_said(stage: Stage) -> None:
 def test_the_badge_says_whether_the_controller_holds_this_program(stage: Stage) -> None:
     same_model(stage)
     badge = stage.studio.window.run_bar.badge
-    assert "Not known" in badge.text()
+    assert "Not known" in badge.accessibleName()
     stage.download()
     stage.go()
-    assert "In the controller" in badge.text()
+    assert "In the controller" in badge.accessibleName()
     stage.studio.session.insert([Label(name="EXTRA")])
     stage.go()
-    assert "Changed" in badge.text()
+    assert "Changed" in badge.accessibleName()
     stage.studio.session.undo()
     stage.go()
-    assert "In the controller" in badge.text()
+    assert "In the controller" in badge.accessibleName()
 
 
 def test_the_badge_and_execute_say_when_the_program_is_another_one(stage: Stage) -> None:
     rig = other(stage)
     badge = stage.studio.window.run_bar.badge
-    assert "Another program" in badge.text()
-    assert "a program that is not the open one (3 lines, first label #A)" in badge.toolTip()
+    assert "Another program" in badge.accessibleName()
+    assert "another program than the open one (3 lines, first label #A)" in badge.toolTip()
     trigger(stage, "execute")
     words, _ = asked(stage)
-    assert "a program that is not the open one" in words
+    assert "another program than the open one" in words
     assert "changed since" not in words.lower()
     assert rig.sent("XQ") == []
 
@@ -375,7 +375,7 @@ def test_what_was_downloaded_is_another_program_once_another_one_is_open(stage: 
     stage.studio.session.new()
     stage.go()
     badge = stage.studio.window.run_bar.badge
-    assert "Another program" in badge.text()
+    assert "Another program" in badge.accessibleName()
     assert "“CUTTER” as it was downloaded at " in badge.toolTip()
 
 
@@ -386,7 +386,7 @@ def test_execute_without_any_program_in_the_controller_offers_only_the_download(
     words, answers = asked(stage)
     assert words.startswith("There is no program in the controller.")
     assert answers == ["Download and execute"]
-    assert "No program" in stage.studio.window.run_bar.badge.text()
+    assert "No program" in stage.studio.window.run_bar.badge.accessibleName()
     assert rig.sent("XQ") == []
 
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButto
 from device.api import Kind, State
 from widgets.display.levels import Levels
 from widgets.display.position import AxisReadout
-from widgets.display.readings import axis_shown, fresh, switches_of
+from widgets.display.readings import axis_shown, fresh, rate_words, switches_of
 from widgets.display.switches import SwitchTable
 from widgets.display.threads import ThreadList
 from widgets.panel import Panel, set_text
@@ -53,6 +53,7 @@ class DisplayPanel(Panel):
         self.inputs, self.outputs = Levels(LAMP), Levels()
         self.switches, self.threads = SwitchTable(), ThreadList()
         self.io_control = QCheckBox("I/O control")
+        self.io_control.setProperty("role", "field")
         self.read_now = QPushButton("Read now")
         self.read_now.setToolTip("Reads live values again: I know that no program waits for an answer.")
         self.read_now.clicked.connect(self.read_wanted)
@@ -112,7 +113,7 @@ class DisplayPanel(Panel):
     def _show_rate(self) -> None:
         controller = self.controller
         assert controller is not None
-        text = f"{controller.rate_hz:.0f} reads/s" if controller.polling else controller.polling_text
+        text = rate_words(controller.rate_hz) if controller.polling else controller.polling_text
         if controller.state is not State.READY:
             text = controller.state_text
         set_text(self.rate, text)

@@ -82,6 +82,7 @@ class AxisReadout(QWidget):
         self.travel = Travel(letter)
         self.homed = QToolButton()
         self.homed.setAutoRaise(True)
+        self.homed.setObjectName("homed")
         self.homed.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.homed.hide()
         menu = QMenu(self.homed)
@@ -156,6 +157,12 @@ class AxisReadout(QWidget):
         self.name.setFont(look().digits_font(16))
         for label in (self.commanded, self.error, self.state, self.unit):
             label.setFont(look().digits_font(look().body_points))
+        self.homed.setFont(look().digits_font(look().body_points))
+        self.homed.setStyleSheet(
+            f"QToolButton#homed {{ color: {look().colour('quiet').name()}; border: none; padding: 0; margin-left: -5px; }}"
+            f"QToolButton#homed:focus {{ border: 2px solid {look().colour('focus').name()}; }}"
+            "QToolButton#homed::menu-indicator { image: none; }"
+        )
         self.name.setStyleSheet(f"color: {look().axis(self.letter).name()}; font-weight: 700;")
 
     def _colour(self, shown: AxisShown) -> None:

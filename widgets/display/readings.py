@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from codegen.numbers import parse_number
 from widgets.display.position import AxisShown
 from widgets.parts.units import NOTHING, scale_of, shown
 
@@ -69,7 +70,7 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
     position = row.value(f"position.{low}")
     switches = switches_of(row, letter, now)
     known = switches if not switches.stale else Switches()  # an old "stopped" may be false by now
-    unit = axis.symbol
+    unit = unit_of(axis)
     error = row.value(f"error.{low}")
     return AxisShown(
         position=shown(position, axis),
@@ -83,6 +84,16 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
         age=age_of(row, f"position.{low}", now),
         fraction=_fraction(position, axis),
     )
+
+
+def unit_of(axis: Axis) -> str:
+    """The unit of the numbers that are shown: counts, whatever was chosen, until it is said how many make a unit."""
+    return axis.symbol if parse_number(axis.counts_per_unit) is not None else "counts"
+
+
+def rate_words(rate_hz: float) -> str:
+    """ "12 reads/s", "1.4 reads/s"."""
+    return f"{rate_hz:.{0 if rate_hz >= 9.95 else 1}f} reads/s"
 
 
 def age_of(row: Row, key: str, now: float) -> str:

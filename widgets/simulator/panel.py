@@ -31,6 +31,8 @@ STARTING = "The simulator is starting."
 EMPTY = "The simulator is not running. Start it to flip its switches and push its load from here."
 SWITCHES = (("fls", "Forward limit"), ("rls", "Reverse limit"), ("home", "Home"))
 
+MARGINS = (8, 0, 4, 0)  # px within the frame, as in every other field
+
 
 class SimulatorPanel(Panel):
     """Everything goes up as `stimulus(signal, value)` with the names of the command line's --stimulus."""
@@ -122,7 +124,7 @@ class SimulatorPanel(Panel):
         self.inputs = {}
         for number in range(1, count + 1):
             name = names[number - 1] if number <= len(names) else ""
-            box = QCheckBox(f"{number}  {name}".rstrip())
+            box = _box(f"{number}  {name}".rstrip())
             box.setAccessibleName(f"Input {number} {name}".strip())
             box.setChecked(True)
             box.toggled.connect(lambda high, number=number: self.stimulus.emit(f"in{number}", float(high)))
@@ -137,7 +139,7 @@ class SimulatorPanel(Panel):
         self.switches = {}
         for column, letter in enumerate(letters):
             for row, (signal, words) in enumerate(SWITCHES):
-                box = QCheckBox(f"{letter} {words.lower()}")
+                box = _box(f"{letter} {words.lower()}")
                 name = f"{signal}_{letter.lower()}"
                 box.toggled.connect(lambda pressed, name=name: self.stimulus.emit(name, 0.0 if pressed else 1.0))
                 grid.addWidget(box, row + 3 * (column // 2), column % 2)
@@ -152,6 +154,7 @@ class SimulatorPanel(Panel):
             box.setRange(-10.0, 10.0)
             box.setSingleStep(0.1)
             box.setSuffix(" V")
+            box.lineEdit().setTextMargins(*MARGINS)
             box.setFixedWidth(88)
             slider.setMinimumWidth(72)
             box.setAccessibleName(f"Analog input {number} in volts")
@@ -175,6 +178,7 @@ class SimulatorPanel(Panel):
             box.setDecimals(0)
             box.setValue(100)
             box.setSuffix(" counts")
+            box.lineEdit().setTextMargins(*MARGINS)
             box.setAccessibleName(f"Push on {letter} in counts")
             button.clicked.connect(
                 lambda _=False, letter=letter, box=box: self.stimulus.emit(f"position_{letter.lower()}", box.value())
@@ -188,7 +192,7 @@ class SimulatorPanel(Panel):
 
     def _system_row(self) -> QHBoxLayout:
         row = QHBoxLayout()
-        abort = QCheckBox("Abort input pressed")
+        abort = _box("Abort input pressed")
         abort.toggled.connect(lambda pressed: self.stimulus.emit("abort", 0.0 if pressed else 1.0))
         self.switches["abort"] = abort
         reset = self.reset = QPushButton("Reset")
@@ -198,6 +202,13 @@ class SimulatorPanel(Panel):
         row.addStretch(1)
         row.addWidget(reset)
         return row
+
+
+def _box(words: str) -> QCheckBox:
+    """A check box in line with the fields."""
+    box = QCheckBox(words)
+    box.setProperty("role", "field")
+    return box
 
 
 def _quietly(slider: QSlider, value: int) -> None:

@@ -46,6 +46,7 @@ class CodeWindow(QDialog):
             tabs.addTab(self.differences, "Compared with the open program")
         self.save, self.shut = QPushButton("Save as code…"), QPushButton("Close")
         self.save.setEnabled(bool(theirs))
+        self.save.setVisible(where == "controller")  # what is in a file is saved already
         self.save.setToolTip("Writes it into a file" if theirs else "There is nothing to save")
         self.save.clicked.connect(lambda: self.save_wanted.emit(self.text))
         self.shut.clicked.connect(self.accept)

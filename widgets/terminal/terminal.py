@@ -34,7 +34,7 @@ STYLES = {
     "poll": ("quiet", "· "),
     "note": ("quiet", "  "),
 }
-WATCHING = "Watch: what only reads is sent, such as TP, MG _TPX or KP ?. For anything else switch to Control (Ctrl+T)."
+WATCHING = "Watch sends what only reads (TP, MG _TPX, KP ?); for the rest: Control, Ctrl+T."
 
 
 class TerminalPanel(Panel):
@@ -52,12 +52,17 @@ class TerminalPanel(Panel):
         self.log, self.line = QPlainTextEdit(), QLineEdit()
         self.send, self.clear = QPushButton("Send"), QPushButton("Clear")
         self.traffic = QCheckBox("Show live reads")
+        self.traffic.setProperty("role", "field")
         self.why = QLabel()
         self._lay_out()
         self.line.returnPressed.connect(self._send)
         self.send.clicked.connect(self._send)
         self.clear.clicked.connect(self.log.clear)
         self.line.installEventFilter(self)
+        self._at_end = True  # nobody has scrolled up to read
+        bar = self.log.verticalScrollBar()
+        bar.rangeChanged.connect(lambda _, most: bar.setValue(most) if self._at_end else None)
+        bar.valueChanged.connect(self._scrolled)
         self._allow("Connect a controller or start the simulator first.")
 
     def attach(self, controller: Controller) -> None:
@@ -101,24 +106,26 @@ class TerminalPanel(Panel):
         token, sign = STYLES[style]
         shape = QTextCharFormat()
         shape.setForeground(look().colour(token))
-        bar = self.log.verticalScrollBar()
-        follows = bar.value() >= bar.maximum() - 2 or not self.isVisible()
         cursor = self.log.textCursor()
         cursor.movePosition(QTextCursor.MoveOperation.End)
         if not self.log.document().isEmpty():
             cursor.insertBlock()
         cursor.insertText(sign + text.rstrip("\r\n"), shape)
-        if follows:
+        if self._at_end:
             self._show_end()
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
         self._show_end()
 
+    def _scrolled(self, value: int) -> None:
+        self._at_end = value >= self.log.verticalScrollBar().maximum() - 1 or not self.isVisible()
+
     def _show_end(self) -> None:
         """The newest lines."""
-        self.log.moveCursor(QTextCursor.MoveOperation.End)
-        self.log.ensureCursorVisible()
+        self._at_end = True
+        bar = self.log.verticalScrollBar()
+        bar.setValue(bar.maximum())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Up and down bring back earlier lines."""
@@ -168,10 +175,12 @@ class TerminalPanel(Panel):
         self.why.setWordWrap(True)
         self.log.setMinimumHeight(48)
         foot, column = QHBoxLayout(), QVBoxLayout(self)
+        foot.setSpacing(8)
         foot.addWidget(self.line, 1)
         for widget in (self.send, self.traffic, self.clear):
             foot.addWidget(widget)
         column.setContentsMargins(8, 0, 8, 4)
+        column.setSpacing(4)
         column.addWidget(self.log, 1)
         column.addWidget(self.why)
         column.addLayout(foot)
@@ -182,5 +191,5 @@ def why_not(controller: Controller) -> str:
     if controller.kind is Kind.OFFLINE:
         return "Connect a controller or start the simulator first."
     if controller.pending_prompt is not None:
-        return "The program waits for an answer: the next line would be taken for it. Use the answer box."
+        return "The program waits: the next line would be its answer. Use the answer box."
     return ""

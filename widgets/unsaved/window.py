@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QListWidget, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 WORDS = (
     "This work was not saved when the program ended unexpectedly. Recover opens it, still unsaved; "
     "the rest stays in this list and is offered again at the next start."
 )
+
+HEIGHT = 32  # px of a line
 
 
 class UnsavedWork(QDialog):
@@ -53,7 +64,10 @@ class UnsavedWork(QDialog):
         """What there is, newest first; closes when nothing is left."""
         row = max(0, min(self.list.currentRow(), len(lines) - 1))
         self.list.clear()
-        self.list.addItems(list(lines))
+        for line in lines:
+            item = QListWidgetItem(line)
+            item.setSizeHint(QSize(0, HEIGHT))
+            self.list.addItem(item)
         self.list.setCurrentRow(row)
         if not lines:
             self.accept()

@@ -184,12 +184,20 @@ def test_everything_is_said_in_words(bench: Bench) -> None:
     lines = bench.panel.words().splitlines()
     # 6370 counts at 637 an inch; Y counts as it has no scale
     assert "X axis: 10.000 in, ■ stopped, commanded 10.000" in lines
-    assert any(line.startswith("Y axis: -1250 ") and "! at forward limit" in line for line in lines)
+    assert any(line.startswith("Y axis: -1250 counts,") and "! at forward limit" in line for line in lines)
     assert "input 1 Start, off" in lines
     assert [line.split(", ")[1] for line in lines if line.startswith("input ")] == ["off", *["on"] * 7]
     on = ["on", "off", "on", *["off"] * 5]
     assert [line.split(", ")[1] for line in lines if line.startswith("output ")] == on
     assert any("Thread 0: line 4" in line for line in lines)
+
+
+def test_an_axis_without_a_scale_is_shown_in_counts_and_says_so(qtbot: QtBot) -> None:
+    """Not "-1250 in": nobody has said how many counts make an inch."""
+    bare = axis_shown(
+        row_of({"position.x": -1250.0, "velocity.x": 7.0, "error.x": 1.0}), "X", Axis(unit=Unit.INCH), 0.0
+    )
+    assert (bare.position, bare.unit, bare.speed, bare.error) == ("-1250", "counts", "7.00 counts/s", "1 counts")
 
 
 def test_a_moving_axis_says_so_with_its_speed(bench: Bench) -> None:
