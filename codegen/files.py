@@ -41,7 +41,7 @@ class FileUnreadable(Exception):
 def dumps(document: Document) -> str:
     """A document as the text of a `.tlp` file."""
     program = document.program
-    return _write(
+    return readable(
         {
             "format": PROGRAM,
             "version": VERSION,
@@ -58,12 +58,12 @@ def dumps(document: Document) -> str:
 
 def setup_dumps(setup: Setup) -> str:
     """A setup as the text of a `.tls` file."""
-    return _write({"format": SETUP, "version": VERSION, **_setup_data(setup)})
+    return readable({"format": SETUP, "version": VERSION, **_setup_data(setup)})
 
 
 def steps_to_text(steps: Sequence[Step]) -> str:
     """Steps for the clipboard."""
-    return _write({"format": STEPS, "version": VERSION, "steps": [_step_data(step) for step in steps]})
+    return readable({"format": STEPS, "version": VERSION, "steps": [_step_data(step) for step in steps]})
 
 
 def _step_data(step: Step) -> dict[str, Any]:
@@ -113,7 +113,8 @@ def _plain_values(setup: Setup) -> dict[str, str]:
     return {field.name: getattr(setup, field.name) for field in dc.fields(setup) if isinstance(field.default, str)}
 
 
-def _write(data: Mapping[str, Any]) -> str:
+def readable(data: Mapping[str, Any]) -> str:
+    """JSON as people read and compare it: a line for each step, axis or short value."""
     return _pretty(data, "") + "\n"
 
 

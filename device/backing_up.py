@@ -97,7 +97,7 @@ def _lines(parts: Sequence[str], room: int, joint: str) -> Iterator[list[str]]:
 
 
 def backup_steps(
-    c: Controller, job: Job[Backup], note: str = "", port: str = "", taken: datetime | None = None
+    c: Controller, job: Job[Backup], note: str = "", port: str = "", *, setup: str = "", taken: datetime | None = None
 ) -> Steps[Backup]:
     """Reads everything; changes nothing."""
     model = yield from quiet(c, "Not backed up")
@@ -120,6 +120,7 @@ def backup_steps(
         port=port,
         taken=(taken or datetime.now()).isoformat(sep=" ", timespec="seconds"),
         note=note,
+        setup=setup,
         parameters=parameters,
         motors_on="".join(axis for axis, off in zip(model.axes, motors, strict=True) if off == 0),
         program=program.rstrip("\n"),

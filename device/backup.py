@@ -9,11 +9,12 @@ import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from codegen.files import FileUnreadable, save_text
+from codegen.files import FileUnreadable, readable, save_text
 from codegen.models import MODELS, Model
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
@@ -24,6 +25,7 @@ from codegen.twoletter.rows import Takes
 FORMAT = "twoletter backup"
 VERSION = 1
 SUFFIX = ".tlb"
+KEPT = 50  # automatic backups
 # What BN burns (spec: BN contents), in the order in which it is put back: what the motor is comes before how it is
 # driven, and what it may do before how fast. Outputs stay as they are: putting them back could move something.
 PARAMETERS = (  # noqa: SIM905
@@ -144,12 +146,28 @@ def dumps(backup: Backup) -> str:
         "arrays": {name: [number_text(value) for value in values] for name, values in backup.arrays.items()},
         "setup": json.loads(backup.setup) if backup.setup else None,
     }  # fmt: skip
-    return json.dumps(data, indent=1, ensure_ascii=False) + "\n"
+    return readable(data)
 
 
 def save(path: str | Path, backup: Backup) -> None:
     """Writes the file; a crash leaves an old one whole."""
     save_text(path, dumps(backup))
+
+
+def keep(folder: Path, backup: Backup, now: datetime, most: int = KEPT) -> Path:
+    """Writes it under a name that tells when, never over another; beyond `most` the oldest kept ones go."""
+    folder.mkdir(parents=True, exist_ok=True)
+    name = f"{now:%Y-%m-%d %H.%M.%S} {backup.model}"
+    path = folder / f"{name}{SUFFIX}"
+    count = 1
+    while path.exists():
+        count += 1
+        path = folder / f"{name} ({count}){SUFFIX}"
+    save(path, backup)
+    kept = sorted(folder.glob(f"*{SUFFIX}"), key=lambda each: each.stat().st_mtime)
+    for old in kept[:-most]:
+        old.unlink(missing_ok=True)
+    return path
 
 
 def load(path: str | Path) -> Backup:

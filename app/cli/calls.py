@@ -17,6 +17,8 @@ DOES = {
     "terminal": "app.cli.terminal",
     "download": "app.cli.transfer",
     "upload": "app.cli.transfer",
+    "backup": "app.cli.backup",
+    "restore": "app.cli.backup",
     "conform": "app.cli.conforming",
     "ports": "app.cli.ports",
 }

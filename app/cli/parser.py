@@ -19,6 +19,8 @@ CALLS = (
     "terminal",
     "download",
     "upload",
+    "backup",
+    "restore",
     "conform",
     "ports",
 )
@@ -117,6 +119,15 @@ def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     line_options(upload)
     upload.add_argument("-o", "--output", metavar="FILE")
     upload.add_argument("--force", action="store_true", help="overwrite an existing file")
+    backup = calls.add_parser("backup", help="everything a controller holds, in one readable file")
+    line_options(backup)
+    backup.add_argument("-o", "--output", metavar="FILE", required=True)
+    backup.add_argument("--note", default="", metavar="TEXT", help="kept in the file")
+    backup.add_argument("--setup", metavar="SETUP.tls", help="kept in the file as well")
+    backup.add_argument("--force", action="store_true", help="overwrite an existing file")
+    restore = calls.add_parser("restore", help="puts a backup back; the motors are off afterwards")
+    restore.add_argument("file", metavar="FILE")
+    line_options(restore)
     conform = calls.add_parser("conform", help="compares a controller with the simulator; nothing moves")
     line_options(conform)
     conform.add_argument("-o", "--output", metavar="PROFILE.toml", help="what was found (default MODEL-profile.toml)")
