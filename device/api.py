@@ -221,7 +221,7 @@ class Controller:
     def _stop_steps(self, sure: bool, abort: bool, then: Callable[[bool], None]) -> Steps[bool]:
         model = self.model
         self._stopping = stopping = Stopping(
-            command_mode=sure and not self.resting(),
+            command_mode=sure and not self.resting() and self.line.address is None,  # others in a chain prove nothing
             axes=self.axes or "X",
             sequence=model is not None and model.coordinated,
             threads=model.threads if model is not None else 1,

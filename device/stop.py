@@ -2,10 +2,11 @@
 
 | state of the line                       | bytes                        | proof                     |
 |-----------------------------------------|------------------------------|---------------------------|
-| command mode                            | `ST` CR                      | `HX`; no `_BG`, no `_XQn` |
+| command mode                            | `ST` CR                      | `ST;HX` accepted, and     |
+|                                         |                              | no `_BG`, no `_XQn`       |
 | DL, QD, ED, data mode, IN, half a line, | `11 1B 5C` `ST` CR `ST` CR   | the same                  |
 | XOFF, unknown                           |                              |                           |
-| daisy chain                             | the same with `!ST`          | the same                  |
+| daisy chain                             | the burst with `!ST`         | the same, of ours         |
 | second press, or not still in time      | the same with `AB`           | the same                  |
 
 `11` is XON and leaves the line editor, `1B` leaves operator data mode, `5C` (backslash) ends DL and QD. The first
@@ -86,10 +87,13 @@ class Stopping:
         return False
 
     def _halt(self) -> Steps[bool]:
-        """`HX`, proved by its frame; without an answer the stop itself is sent again."""
+        """The stop once more and `HX`, proved by a frame: what was sent at first may have met half a line.
+
+        A geared axis moves without `_BG`, so only a proof that the stop itself was carried out will do.
+        """
         nonce = next(self.nonces)
-        line = f"HX;{framed(nonce, ())}"
-        answer = yield Send(line.encode() + b"\r", Proof(nonce), self._patience(), hold=True, refusal_s=0.04)
+        line = f"{'AB' if self.abort else 'ST'};HX;{framed(nonce, ())}"
+        answer = yield Send(line.encode() + b"\r", Proof(nonce, 2), self._patience(), hold=True, refusal_s=0.04)
         if answer.kind is Kind.ACCEPTED:
             self._answered()
             return True

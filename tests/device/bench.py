@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from codegen.models import model
 from device.api import Controller, Kind, State
@@ -25,14 +25,21 @@ class Bench:
         baud: int | None = 19200,
         kind: Kind = Kind.SIMULATOR,
         plants: Mapping[str, Plant] | None = None,
+        simulation: Any = None,
+        address: int | None = None,
         **more: object,
     ) -> None:
-        self.simulation = Simulation(model(name), plants, baud=baud, compiled=False)
+        self.simulation = simulation or Simulation(model(name), plants, baud=baud, compiled=False)
         self.loopback = Loopback(self.simulation)
         self.refuse_to_open = False
         self.sent = bytearray()
         self.controller = Controller(
-            self._open, kind=kind, line=LineSettings(baud=baud), clock=self.loopback.clock, threaded=False, **more
+            self._open,
+            kind=kind,
+            line=LineSettings(baud=baud, address=address),
+            clock=self.loopback.clock,
+            threaded=False,
+            **more,
         )
 
     def _open(self) -> Transport:

@@ -93,7 +93,7 @@ def test_an_error_of_the_program_is_a_fault() -> None:
 def test_stop_goes_before_what_is_queued() -> None:
     transport, controller = talking(
         (b"ST\r", b":"),
-        (b'HX;MG{^30},"ea",{^31}\r', b":\x1eea\x1f\r\n:"),
+        (b'ST;HX;MG{^30},"ea",{^31}\r', b"::\x1eea\x1f\r\n:"),
         (b'MG{^30},"fa",_BGX{F1.0},_XQ0{F4.0},{^31}\r', b"\x1efa 1-0001\x1f\r\n:"),
         (b'MG{^30},"ga",_XQ1{F4.0},{^31}\r', b"\x1ega-0001\x1f\r\n:"),
         (b'MG{^30},"ha",_TVX{F8.0},_DCX{F10.0},{^31}\r', b"\x1eha 00020000 0000256000\x1f\r\n:"),
