@@ -20,7 +20,7 @@ from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.rows import BY_AXIS, Row, Takes
 from tests.examples.script import Bench
-from tests.facts.sheet import COLUMNS, CONTROLLERS, Entry, Prober, sheet
+from tests.facts.sheet import COLUMNS, CONTROLLERS, Entry, Fact, Prober, sheet
 from tests.long import is_long
 
 ROWS = [pytest.param(row, id=row.name) for row in ALL]
@@ -252,6 +252,29 @@ def test_only_control_characters_have_no_such_column() -> None:
 @pytest.mark.parametrize(("entry", "controller"), TOLD)
 def test_what_the_manual_says(entry: Entry, controller: str) -> None:
     Prober(entry, controller, EVERYDAY if not is_long() else ()).probe()
+
+
+@pytest.mark.parametrize(
+    ("verb", "text"),
+    [
+        ("takes", "KP 5000"),
+        ("runs", "UL"),
+        ("opens", "KP 5"),
+        ("sends", "KP 5000\\r"),
+        ("refuses", "6 KP 5"),
+        ("refuses", "7 KP 5000"),
+        ("stops", "6 KP 5"),
+        ("answers", "KP? ->  0005.00"),
+        ("unasked", "51 KP?"),
+        ("reads", "7 _KP"),
+        ("unread", "_KP"),
+        ("axes", "5000 1 1 1"),
+    ],
+)
+def test_a_wrong_fact_is_seen(verb: str, text: str) -> None:
+    fact = Fact(verb, text, frozenset({"ssc2"}), ("spec:KP",), 1)
+    with pytest.raises(AssertionError):
+        Prober(Entry("KP", ("ssc2",), "", (fact,)), "ssc2").probe()
 
 
 @pytest.mark.parametrize(("entry", "controller"), ABSENT)

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
+from codegen.twoletter.commands import COMMANDS
 from device.simulator.twoletter.behaviour import registers
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
+OLD_FILTER: Final = ("GN", "ZR")  # kept beside the registers that follow them
+
 
 def parameters(unit: Unit) -> dict[str, Any]:
     """The parameter set of BN (commands.md, BN contents)."""
     state = unit.state
-    saved = {name: entry for name, entry in registers.STORES.items() if entry.saved}
+    saved = {name: entry for name, entry in registers.STORES.items() if COMMANDS[name[:2]].burned}
+    registers_kept = [*(name for name, entry in saved.items() if entry.per_axis), *OLD_FILTER]
     return {
-        "registers": {name: list(state.registers[name]) for name, entry in saved.items() if entry.per_axis},
+        "registers": {name: list(state.registers[name]) for name in registers_kept},
         "settings": {name: state.settings[name] for name, entry in saved.items() if not entry.per_axis},
         "switches": list(state.switches),
         "port_two": list(state.port_two),

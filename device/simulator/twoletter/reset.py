@@ -114,6 +114,7 @@ def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
             motion.commutation.set_phase(0, 0.0)  # unknown: the loop is unstable until BZ (l.750)
     for axis, on in enumerate(motors_on):
         motion.define_position(axis, 0)
+        motion.define_auxiliary(axis, 0)
         if on:
             motion.servo_here(axis)
         else:

@@ -29,7 +29,6 @@ class Store:
     register: Register | None = None
     apply: Callable[[Unit, int, int], None] | None = None  # (unit, axis, scaled value) after storing
     check: Callable[[Unit, int, int], None] | None = None  # refuses a value that the machine does not allow
-    saved: bool = True  # among what BN burns
 
 
 def _follow(register: Register) -> Store:
@@ -44,7 +43,7 @@ def _mode(name: str, register: Register | None = None) -> Store:
         if name == "JG":
             unit.state.last_speed[axis] = value
 
-    return Store(register=register, apply=choose, saved=False)
+    return Store(register=register, apply=choose)
 
 
 def _speed(unit: Unit, axis: int, value: int) -> None:
@@ -72,13 +71,13 @@ def _look(unit: Unit, axis: int, value: int) -> None:
     unit.changed = True
 
 
-def _path(setter: str) -> Store:
+def _path(setter: str, saved: bool = True) -> Store:
     """A parameter of coordinated motion."""
 
     def follow(unit: Unit, axis: int, value: int) -> None:
         getattr(unit.motion.path, setter)(value / ONE)
 
-    return Store(per_axis=False, apply=follow)
+    return Store(per_axis=False, apply=follow, saved=saved)
 
 
 def _phase(setter: str, whole: bool = False) -> Store:
@@ -130,7 +129,7 @@ STORES: Final[dict[str, Store]] = {
     "TM": Store(per_axis=False, apply=_sample_time),
     "LZ": Store(per_axis=False),
     "EO": Store(per_axis=False),
-    "TR": Store(per_axis=False, apply=_look, saved=False),
+    "TR": Store(per_axis=False, apply=_look),
     "PF": Store(per_axis=False),
     "VF": Store(per_axis=False),
     "SA": Store(per_axis=False),
