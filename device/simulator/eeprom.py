@@ -49,12 +49,12 @@ class Eeprom:
         self._write()
 
     def copy_parts(self) -> dict[str, Any]:
-        """A copy for a snapshot."""
-        return dict(json.loads(json.dumps(self._parts)))
+        """A copy for a snapshot; parts are replaced, never changed."""
+        return dict(self._parts)
 
     def restore_parts(self, parts: dict[str, Any]) -> None:
         """Puts a snapshot's copy back; the file is written at the next burn."""
-        self._parts = dict(json.loads(json.dumps(parts)))
+        self._parts = dict(parts)
 
     def _write(self) -> None:
         self.damaged = False

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from codegen.models import Model
 from device.simulator import report, signals
+from device.simulator.copying import clone
 from device.simulator.eeprom import Eeprom
 from device.simulator.motion import Motion
 from device.simulator.plant import Plant
@@ -186,8 +186,8 @@ class Simulation:
         """A copy of everything that is simulated (not of the records)."""
         clock = self.unit.clock
         return Snapshot(
-            copy.deepcopy(self.unit.state),
-            copy.deepcopy(self.uarts),
+            clone(self.unit.state),
+            clone(self.uarts),
             self.motion.snapshot(),
             (clock.now, clock.tick, clock.sample, clock.period),
             self.unit.eeprom.copy_parts(),
@@ -197,10 +197,10 @@ class Simulation:
         """Goes back to a snapshot."""
         unit = self.unit
         program = unit.state.program
-        unit.state = copy.deepcopy(snapshot.state)
+        unit.state = clone(snapshot.state)
         for uart, saved in zip(self.uarts, snapshot.uarts, strict=True):
             for name in Uart.__slots__:
-                setattr(uart, name, copy.deepcopy(getattr(saved, name)))
+                setattr(uart, name, clone(getattr(saved, name)))
         self.motion.restore(snapshot.motion)
         unit.clock.now, unit.clock.tick, unit.clock.sample, unit.clock.period = snapshot.clock
         unit.eeprom.restore_parts(snapshot.eeprom)
