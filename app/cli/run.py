@@ -192,7 +192,7 @@ def run(options: argparse.Namespace) -> int:
         read = [Path(each) for each in (options.setup, options.plant, options.stimulus) if each]
         check_ending(target(options.trace, path, *read))
     loaded = load_any(path, options.controller, options.setup)
-    complete(path, loaded.listing)
+    complete(path, loaded.text, loaded.listing)
     name = options.stimulus or str(loaded.path)
     text = read_text(Path(options.stimulus)) if options.stimulus else loaded.stimulus
     happenings = read_stimulus(text, name, loaded.model) if text.strip() else []

@@ -14,6 +14,8 @@ from codegen.generate import Listing, generate
 from codegen.models import MODELS, Model, model
 from codegen.read import cannot
 from codegen.setup import Setup
+from codegen.twoletter.facts import is_host_comment
+from codegen.twoletter.parse import parse_line
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.profile import Profile
@@ -163,12 +165,21 @@ def fitted(document: Document, setup: Setup | None, controller: str | None, path
     return fitting
 
 
-def complete(path: Path, listing: Listing | None) -> None:
+def plain(path: Path, text: str) -> None:
+    """Refuses characters that no controller has; comments that stay in the file (REM) may hold them."""
+    for number, line in enumerate(text.split("\n"), 1):
+        if not line.isascii() and not is_host_comment(parse_line(line)):
+            letter = next(character for character in line if not character.isascii())
+            raise Failure(f"{path}: line {number}: the controller knows plain characters only, not {letter!r}")
+
+
+def complete(path: Path, text: str, listing: Listing | None) -> None:
     """Refuses a program whose setup is wrong or in which a step could not become code.
 
     What the checker finds is no reason: the controller finds it too, when it comes to it.
     """
     if listing is None:
+        plain(path, text)
         return
     for finding in listing.problems:
         if finding.severity == "error" and not finding.step:

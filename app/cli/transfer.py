@@ -37,7 +37,7 @@ def download(options: argparse.Namespace) -> int:
     """Sends a program and reads it back; 1 when it could not be verified."""
     path = Path(options.file)
     loaded = load_any(path)
-    complete(path, loaded.listing)
+    complete(path, loaded.text, loaded.listing)
     if loaded.listing and (errors := errors_of(loaded.listing)):
         raise Failure(f"{path}: {errors[0]}")
     with connected(options) as controller:
