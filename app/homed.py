@@ -15,7 +15,7 @@ from device.api import Controller, NoticeKind, Row
 ENDS = {9: "found its edge (FE)", 10: "was homed (HM, FI)"}  # stop codes (dmc-1412-1414.txt, SC)
 SERVOS = frozenset({MotorType.SERVO, MotorType.SERVO_REVERSED})
 NEVER = "this studio has not seen it homed since it was connected"
-OWN = "The controller keeps no such mark: this is what the studio knows."
+OWN = "The controller keeps no such mark: this is what the studio knows. Right click: say what you know."
 
 
 @dataclass(frozen=True)

@@ -153,7 +153,7 @@ def test_another_controller_starts_without_marks(stage: Stage) -> None:
 
 def test_a_person_can_say_what_they_know(stage: Stage) -> None:
     rig = ready(stage)
-    actions = stage.studio.display.axes["X"].homed.menu().actions()
+    actions = stage.studio.display.axes["X"].homed.actions()
     actions[0].trigger()
     stage.go()
     assert mark(stage) == "● homed"

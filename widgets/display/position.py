@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QToolTip, QWidget
 
 from widgets.panel import set_text
 from widgets.parts.look import look
@@ -83,12 +84,12 @@ class AxisReadout(QWidget):
         self.homed = QToolButton()
         self.homed.setAutoRaise(True)
         self.homed.setObjectName("homed")
-        self.homed.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.homed.hide()
-        menu = QMenu(self.homed)
-        menu.addAction(f"I know that {letter} is homed", lambda: self.homed_told.emit(True))
-        menu.addAction(f"{letter} is not homed", lambda: self.homed_told.emit(False))
-        self.homed.setMenu(menu)
+        self.homed.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        for words, homed in ((f"I know that {letter} is homed", True), (f"{letter} is not homed", False)):
+            action = self.homed.addAction(words)
+            action.triggered.connect(partial(self.homed_told.emit, homed))
+        self.homed.clicked.connect(self._say_why)
         for label in (self.unit, self.commanded, self.error, self.age):
             label.setProperty("role", "quiet")
         self.unit.setContentsMargins(0, 0, 0, 5)  # on the base line of the digits
@@ -121,6 +122,10 @@ class AxisReadout(QWidget):
             self.homed.setToolTip(why)
             self.homed.setAccessibleName(f"{self.letter} axis: {words[2:]}")
             self.homed.setVisible(bool(words))
+
+    def _say_why(self) -> None:
+        """A click tells what the mark rests on; the menu of the right button takes the person's word."""
+        QToolTip.showText(self.homed.mapToGlobal(self.homed.rect().bottomLeft()), self.homed.toolTip(), self.homed)
 
     def changeEvent(self, event: object) -> None:
         super().changeEvent(event)  # type: ignore[arg-type]
@@ -158,10 +163,10 @@ class AxisReadout(QWidget):
         for label in (self.commanded, self.error, self.state, self.unit):
             label.setFont(look().digits_font(look().body_points))
         self.homed.setFont(look().digits_font(look().body_points))
+        quiet, focus = look().colour("quiet").name(), look().colour("focus").name()
         self.homed.setStyleSheet(
-            f"QToolButton#homed {{ color: {look().colour('quiet').name()}; border: none; padding: 0; margin-left: -5px; }}"
-            f"QToolButton#homed:focus {{ border: 2px solid {look().colour('focus').name()}; }}"
-            "QToolButton#homed::menu-indicator { image: none; }"
+            f"QToolButton#homed {{ color: {quiet}; border: none; padding: 0; margin-left: -5px; }}"
+            f"QToolButton#homed:focus {{ border: 2px solid {focus}; }}"
         )
         self.name.setStyleSheet(f"color: {look().axis(self.letter).name()}; font-weight: 700;")
 
