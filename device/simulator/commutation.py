@@ -52,6 +52,10 @@ class Commutation:
         self._parts[axis][layout.PHASE_HALLS] = float(first)
         self._parts[axis][layout.HALL_SECTOR] = -1.0
 
+    def set_offset(self, axis: int, volts: float) -> None:
+        """BO: volts added to the second of the two signals."""
+        self._parts[axis][layout.PHASE_OFFSET] = volts
+
     def set_phase(self, axis: int, degrees: float) -> None:
         """BD: the phase of the place where the axis is."""
         part = self._parts[axis]

@@ -24,6 +24,7 @@ from device.simulator.kernel.layout import (
     PHASE_HALLS,
     PHASE_HELD,
     PHASE_MODE,
+    PHASE_OFFSET,
     PHASE_ZERO,
     WIRES_SWAPPED,
     State,
@@ -44,9 +45,13 @@ def commutated(A: State, volts: float) -> float:
     """The part of the command that turns the motor: the field's strength times the sine of its lead on the rotor."""
     held = A[PHASE_MODE] == 2.0
     field = A[PHASE_HELD] if held else believed_angle(A) + 90.0
+    second = 90.0  # where the second signal's winding is
     if A[WIRES_SWAPPED] != 0.0:
         field = 90.0 - field
+        second = 0.0
     turning = volts * sine(field - true_angle(A))
+    if A[PHASE_OFFSET] != 0.0:
+        turning += A[PHASE_OFFSET] * sine(second - true_angle(A))
     if held:
         turning -= A[PHASE_DAMPING] * A[MOTOR_V]
     return turning

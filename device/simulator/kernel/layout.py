@@ -257,6 +257,7 @@ AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
     PHASE_CALIBRATE,  # 1: set the phase at the next hall transition
     PHASE_HALL_OFFSET,  # BB, degrees
     PHASE_HALLS,  # BI: first of three inputs, 0: none
+    PHASE_OFFSET,  # BO: volts added to the second signal
     MAGNETIC_CYCLE,  # of the motor, counts
     MAGNETIC_ZERO,  # electrical angle of the motor at machine position 0, degrees
     WIRES_SWAPPED,
@@ -266,7 +267,7 @@ AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
     HALL_ORDER_2,
     HALL_ORDER_3,
     HALL_SECTOR,  # 0..5 as the controller reads its inputs, -1: no valid pattern
-) = range(158)
+) = range(159)
 DELAY_RING = 160
 MAXIMUM_DELAY = 32
 HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV

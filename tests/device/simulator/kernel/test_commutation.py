@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 
 import pytest
 
@@ -123,3 +124,35 @@ def test_phase_and_cycle() -> None:
     motion.commutation.set_cycle(0, 2000)
     assert motion.commutation.phase(0) == pytest.approx(90.0)
     assert motion.commutation.counts_to_zero(0) == 500
+
+
+def two_phases(volts: float, believed: float, rotor: float, offset: float, swapped: bool) -> float:
+    """Volts that turn the motor: two windings a quarter of a cycle apart, each drawn to its own axis (l.709-716)."""
+    lead = math.radians(believed + 90)
+    first, second = volts * math.cos(lead), volts * math.sin(lead) + offset
+    if swapped:
+        first, second = second, first
+    turn = math.radians(rotor)
+    return -first * math.sin(turn) + second * math.cos(turn)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("offset", [0.0, 0.7, -1.3])
+def test_the_command_turns_as_two_phases_do(swapped: bool, offset: float) -> None:
+    for place, believed in itertools.product((0, 217, 640, -1111), (0, 45, 123, 200, 301)):
+        motion = Motion(1, [Plant(phases_swapped=swapped)])
+        for register in (Register.KP, Register.KD):
+            motion.set(0, register, 0)
+        motion.set(0, Register.ERROR_LIMIT, 1e9)
+        motion.commutation.enable(0, True)
+        motion.commutation.set_cycle(0, 4000 / 3)
+        motion.push(0, place)
+        motion.run(1)
+        motion.commutation.set_phase(0, believed)
+        motion.commutation.set_offset(0, offset)
+        motion.set(0, Register.OFFSET, 2.0)
+        motion.run(1)
+        rotor = believed - motion.commutation.phase_error(0)  # where the motor really is; its zero is arbitrary
+        volts = two_phases(2.0, believed, rotor, offset, swapped)
+        gain = 0.1 / 2.0e-4 * 4000 / (2 * math.pi)  # Ka Kt / J in counts/s² a volt (l.4389, 4424)
+        assert motion.velocity_now(0) == pytest.approx(gain * volts / 1024, abs=1 + 0.01 * gain / 1024)
