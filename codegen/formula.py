@@ -27,6 +27,7 @@ from codegen.expressions import (
 from codegen.numbers import plain
 
 ROW = "N"  # what a formula calls the number of the row, from 0
+ONE = 65536  # a controller's number counts 1/65536; & and | work on all its bits
 PLACES = 9  # decimals of a filled cell whose number does not end
 
 
@@ -68,9 +69,9 @@ def _joined(operator: str, left: Fraction, right: Fraction) -> Fraction:
                 raise Unknown("this divides by zero")
             return left / right
         case "&":
-            return Fraction(int(left) & int(right))
+            return Fraction(int(left * ONE) & int(right * ONE), ONE)
         case "|":
-            return Fraction(int(left) | int(right))
+            return Fraction(int(left * ONE) | int(right * ONE), ONE)
         case "<":
             return Fraction(left < right)
         case ">":

@@ -188,8 +188,9 @@ class MotionParameters(Instruction):
     title = "Motion Parameters"
     group = Group.MOTION
     sentence = (
-        "[<Set {axis} to[ {speed}][, acceleration {acceleration}][, deceleration {deceleration}]>"
-        "|Set motion parameters …]"
+        "[<[Set {axis} to {speed}[, acceleration {acceleration}][, deceleration {deceleration}]"
+        "|Set the acceleration of {axis} to {acceleration}[, deceleration {deceleration}]"
+        "|Set the deceleration of {axis} to {deceleration}]>|Set motion parameters …]"
     )
     help = "Sets speed, acceleration and deceleration for the moves that follow; empty values keep what the axis has."
 

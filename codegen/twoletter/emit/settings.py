@@ -59,6 +59,5 @@ def mathematical_equation(equations: MathematicalEquation, build: Build) -> Iter
 
 
 def loop_rate(rate: LoopRate, build: Build) -> Iterator[Statement]:
-    """Microseconds; a negative number asks for the external clock (one less, commands.md: TM-1)."""
-    period = int(parse_number(rate.period) or 1000)
-    yield numbers("TM", str(-period) if rate.external else period)
+    """Microseconds, or -1 for the external clock (ssc-tol-o-motion.txt l.1231)."""
+    yield numbers("TM", -1 if rate.external else int(parse_number(rate.period) or 1000))

@@ -162,6 +162,7 @@ class Mode:
     setup: Setup = MACHINE
     seconds: float = 1.0
     every: int = 10  # samples from look to look
+    fails: bool = False  # an error of the program belongs to it
     stays: bool = True  # thread 0 goes on with an endless loop, so that routines can be called
     plants: dict[str, Plant] = field(default_factory=dict)
 
@@ -169,6 +170,11 @@ class Mode:
     def name(self) -> str:
         """For the list of tests."""
         return f"{type(self.does).__name__}: {self.says[:60]}"
+
+
+def code(text: str) -> TwoLetterCode:
+    """Lines written by hand."""
+    return TwoLetterCode(text=text)
 
 
 KEEP = "\n".join(f"AT{letter}=_RP{letter}\nENC{letter}=_TP{letter}" for letter in "XYZW")
@@ -183,15 +189,16 @@ def document(mode: Mode, instruction: Instruction | None) -> Document:
     """The program around an instruction; without it, what the effect is compared with."""
     letters = mode.setup.letters
     keep = "\n".join(line for line in KEEP.split("\n") if line[-1] in letters)
-    main = steps("f", (*mode.first, TwoLetterCode(text="T0=TIME")))
-    configuration: tuple[Step, ...] = ()
+    early = mode.does.section == "C"
+    configuration = steps("f", mode.first) if early else ()
+    main = steps("m", (*(() if early else mode.first), TwoLetterCode(text="T0=TIME")))
     routines = tuple(
         Step(f"r{number}", start, body=steps(f"r{number}b", body)) for number, (start, body) in enumerate(mode.routines)
     )
     if isinstance(instruction, Subroutine):
         routines = (*routines, Step("it", instruction, body=steps("b", mode.body)))
     elif instruction is not None and instruction.section == "C":
-        configuration = (Step("it", instruction),)
+        configuration = (*configuration, Step("it", instruction))
     elif instruction is not None:
         main = (*main, Step("it", instruction, body=steps("b", mode.body)))
     main = (*main, Step("k", TwoLetterCode(text=f"T1=TIME\n{keep}")), *steps("t", mode.then))

@@ -13,13 +13,12 @@ from codegen.instructions import (
     MotorDisable,
     SingleAxisMove,
     StopMotion,
-    TwoLetterCode,
     Wait,
 )
 from codegen.instructions.following import Aborted, Master
 from codegen.instructions.motion import Beginning, Direction, Homing, MoveMode, WaitFor, Which
 from device.simulator.plant import Place, Plant
-from tests.codegen.modes.bench import Mode, Seen
+from tests.codegen.modes.bench import Mode, Seen, code
 from tests.codegen.modes.oracles import (
     at_once,
     became,
@@ -35,11 +34,6 @@ from tests.codegen.modes.oracles import (
     top_speed,
     went,
 )
-
-
-def code(text: str) -> TwoLetterCode:
-    return TwoLetterCode(text=text)
-
 
 PREPARED = (SingleAxisMove(distance="2", speed="2", begin=False), SingleAxisMove(axis="Z", distance="90", begin=False))
 JOG = SingleAxisMove(mode=MoveMode.AT, jog_speed="2")
@@ -117,7 +111,7 @@ PARAMETERS = (
             speed=("2", "", "90", ""), acceleration=("32", "", "", "20.48"), deceleration=("64.512", "", "", "")
         ),
         "Set X to 2 in/s, acceleration 32 in/s², deceleration 64.512 in/s²; set Z to 90 deg/s; "
-        "set W to, acceleration 20.48 mm/s²",
+        "set the acceleration of W to 20.48 mm/s²",
         both(
             became("_SPX", 8000),
             became("_ACX", 128000),

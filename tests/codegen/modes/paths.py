@@ -13,18 +13,13 @@ from codegen.instructions import (
     LinearPath,
     SingleAxisMove,
     TangentPath,
-    TwoLetterCode,
 )
 from codegen.instructions.curves import CamPlace, CamStep, Every
 from codegen.instructions.motion import MoveMode
 from codegen.instructions.path_parts import Ending, Measured, Piece, Shape, Stretch, Turn
 from codegen.setup import Setup
-from tests.codegen.modes.bench import MACHINE, ONE_UNIT, SAMPLES, Mode, Oracle, Seen
+from tests.codegen.modes.bench import MACHINE, ONE_UNIT, SAMPLES, Mode, Oracle, Seen, code
 from tests.codegen.modes.oracles import at_once, both, close, goes, is_at, sees, stands, took, went
-
-
-def code(text: str) -> TwoLetterCode:
-    return TwoLetterCode(text=text)
 
 
 def line(x: str, y: str, speed: str = "") -> Piece:
@@ -98,7 +93,8 @@ CIRCULAR = (
             ),
         ),
         "Path of X and Y at 2 in/s, accelerating at 32 in/s², decelerating at 64 in/s², smoothing 64: arc of "
-        "radius 1 in from 180 deg by 90 deg clockwise at 1 in/s; line to X 2 in, Y 1 in, then wait until the profile has ended",
+        "radius 1 in from 180 deg by 90 deg clockwise at 1 in/s; line to X 2 in, Y 1 in, "
+        "then wait until the profile has ended",
         both(visits("XY", (1, 1), 0.02), is_at("X", 2, 2), is_at("Y", 1, 2), path_speed("XY", 2)),
         seconds=5,
     ),
