@@ -123,6 +123,11 @@ class Motion(Moves, Outside):
         self._state[layout.GUARDS] = float(len(ranges))
         return True
 
+    def guard_moves(self) -> None:
+        """`run` returns after the sample in which an axis that moves comes to rest."""
+        slots = [axis_base(axis) + layout.MOVING for axis in range(self.axes)]
+        self.guard([(slot, 1.0, 1.0) for slot in slots if self._state[slot]])
+
     @property
     def guard_broken(self) -> bool:
         """A guarded slot has left its range."""

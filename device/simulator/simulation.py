@@ -86,8 +86,19 @@ class Simulation:
             if not self.unit.running():
                 if not self.unit.moving() and self.unit.state.command_at < 0:
                     return "end"
-                self.interpreter.advance(min(limit, self.ticks + self.unit.clock.period))
+                self._let_move(limit)
         return "time"
+
+    def _let_move(self, limit: int) -> None:
+        """To the sample in which an axis comes to rest where nothing else is due, else one sample on."""
+        clock, motion, samples = self.unit.clock, self.unit.motion, 1
+        if self.interpreter.rests():
+            motion.guard_moves()
+            while clock.tick + clock.period <= limit and not motion.guard_broken:
+                clock.sync(limit)
+            motion.drop_guards()
+            samples = max(1, -(-(clock.tick - self.ticks) // clock.period))
+        self.interpreter.advance(min(limit, self.ticks + samples * clock.period))
 
     def rest(self, records: int) -> None:
         """Between two slices of real time: the motion is brought up to now, old records are forgotten."""

@@ -80,6 +80,11 @@ class Interpreter:
                 due = min(due, unit.uarts[wait.number - 1].due_out())
         return max(due, unit.clock.now)
 
+    def rests(self) -> bool:
+        """Nothing is due but samples, and none of them can call anything."""
+        state = self.unit.state
+        return state.command_at < 0 and not state.waiting() and self._next_event() == FOREVER and not self._ready()
+
     def _settle(self) -> None:
         """Brings ports and waits up to now, and gives the interpreter its next command."""
         unit = self.unit

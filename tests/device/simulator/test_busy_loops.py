@@ -14,9 +14,9 @@ from tests.device.simulator.bench import MS, Bench
 from tests.long import count
 
 PLANTS = {
-    "x": Plant(viscous_friction=0.001, home_switch=(900.0, 1000.0), index_at=137.0, forward_limit=9000.0),
-    "y": Plant(coulomb_friction=0.004, encoder_noise=0.7, reverse_limit=-4000.0),
-    "z": Plant(backlash=9.0, viscous_friction=0.001),
+    "X": Plant(viscous_friction=0.001, home_switch=(900.0, 1000.0), index_at=137.0, forward_limit=9000.0),
+    "Y": Plant(coulomb_friction=0.004, encoder_noise=0.7, reverse_limit=-4000.0),
+    "Z": Plant(backlash=9.0, viscous_friction=0.001),
 }
 OPERATORS = ("<", ">", "=", "<=", ">=", "<>")
 NUMBERS = (
@@ -184,3 +184,17 @@ def test_the_way_out_is_taken_at_its_tick() -> None:
     began = 5 * COMMAND // 1000  # samples before the fifth command
     ramp, travel = 10, round((2500 - 10 * 10000 / 1024) / (10000 / 1024))
     assert abs(float(bench.texts()[0]) - (began + 2 * ramp + travel)) <= 2
+
+
+def test_a_run_ends_with_the_sample_that_ends_the_motion() -> None:
+    # SP 2048, AC and DC 102400 (20 samples up and down): 4096 counts take 2 s and 20 samples
+    ends = []
+    for more in ("", "MG 1;WT 3000;"):  # once nothing but the motion is left, once a thread outlives it
+        bench = Bench("ssc2")
+        assert bench.run(f"SP 2048,1024;AC 102400;DC 102400;PR 4096;BGX;{more}EN") == "end"
+        assert not bench.simulation.unit.moving()
+        assert bench.position() == 4096
+        ends.append(bench.simulation.ticks)
+    begun = 5 * COMMAND  # the sample after the fifth command is the first of the move
+    assert ends[0] == pytest.approx(begun + (2 * 1024 + 20) * 1000, abs=2000)
+    assert ends[1] > 3000 * 1000
