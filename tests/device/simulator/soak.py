@@ -184,9 +184,10 @@ class Soak:
         assert not self.simulation.unit.running()
         assert not self.simulation.unit.moving()
         mark = f"{self.episodes % 1296 // 36:x}"[-1] + "k"
-        answer = self.type(f'MG{{^30}},"{mark}",_TPX{{F10.0}},{{^31}}\r', 30)
+        assert self.type(f"V9={self.episodes}-7\r", 30) == ":"
+        answer = self.type(f'MG{{^30}},"{mark}",V9{{F10.0}},{{^31}}\r', 30)
         found = FRAME.fullmatch(answer[:-1])
         assert found is not None and answer[-1] == ":", answer
         assert found.group(1) == mark
-        assert int(found.group(2).replace(" ", "")) == self.simulation.unit.motion.position(0)
+        assert int(found.group(2).replace(" ", "")) == self.episodes - 7
         self.answers += 1
