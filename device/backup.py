@@ -26,12 +26,6 @@ FORMAT = "twoletter backup"
 VERSION = 1
 SUFFIX = ".tlb"
 KEPT = 50  # automatic backups
-# What BN burns (spec: BN contents), in the order in which it is put back: what the motor is comes before how it is
-# driven, and what it may do before how fast. Outputs stay as they are: putting them back could move something.
-PARAMETERS = (  # noqa: SIM905
-    "MT CE DV AF TM LZ PF VF ER OE TL FL BL IL OF GN ZR KP KI KD FV FA IT KS TW SP AC DC VS VA VD VT VR"
-).split()  # fmt: skip
-SETTINGS_UNREAD = ("CC", "CN", "CW", "EO", "SA", "BB", "BI", "BM", "BO")  # no controller of ours tells these
 Value = int  # in 1/65536
 
 
@@ -55,13 +49,17 @@ class Backup:
 
 
 def parameter_names(model: Model) -> list[str]:
-    """The parameters this controller has and tells, in the order of putting them back."""
-    return [name for name in PARAMETERS if COMMANDS[name].known_to(model)]
+    """The burned parameters this controller has and tells, in the order of putting them back.
+
+    The table's order will do: what the motor is (MT) comes before how fast it may go. The outputs (OP) are not among
+    them: putting them back could move something.
+    """
+    return [row.name for row in COMMANDS.values() if row.burned and row.operand and row.known_to(model)]
 
 
 def untold(model: Model) -> tuple[str, ...]:
     """Burned settings that this controller has but does not tell."""
-    return tuple(name for name in SETTINGS_UNREAD if COMMANDS[name].known_to(model))
+    return tuple(row.name for row in COMMANDS.values() if row.burned and not row.operand and row.known_to(model))
 
 
 def per_axis(name: str) -> bool:

@@ -163,6 +163,7 @@ class Row:
 
     `reply` is the format of `?` (None: no `?`), `high_from` names the field of Model that sets the top.
     `tells` marks commands that print the value themselves (TP).
+    `burned`: among the parameters that BN keeps (the list is recalled; BP, BV keep other things).
     `moving_mode` says when it is still allowed while its axis moves: "jog" (in jog mode), "idle" (BG: error 21).
     `profile` tells which fact is recalled or inferred and may have to change when a real controller is asked.
     """
@@ -197,6 +198,7 @@ class Row:
     program: bool = True
     port: bool = True
     trippoint: bool = False
+    burned: bool = False
     families: frozenset[str] = BOTH
     needs: Literal["", "coordinated", "commutation"] = ""
     errors: tuple[int, ...] = ()

@@ -18,6 +18,7 @@ COMMUTATION: tuple[Row, ...] = (
     ),
     Row(
         name="BB",
+        burned=True,
         title="Brushless phase begin",
         group="Sine commutation",
         takes=Takes.AXIS_NUMBERS,
@@ -68,6 +69,7 @@ COMMUTATION: tuple[Row, ...] = (
     ),
     Row(
         name="BI",
+        burned=True,
         title="Brushless inputs",
         group="Sine commutation",
         takes=Takes.AXIS_NUMBERS,
@@ -87,6 +89,7 @@ COMMUTATION: tuple[Row, ...] = (
     ),
     Row(
         name="BM",
+        burned=True,
         title="Brushless modulo",
         group="Sine commutation",
         takes=Takes.AXIS_NUMBERS,
@@ -103,6 +106,7 @@ COMMUTATION: tuple[Row, ...] = (
     ),
     Row(
         name="BO",
+        burned=True,
         title="Brushless offset",
         group="Sine commutation",
         takes=Takes.AXIS_NUMBERS,

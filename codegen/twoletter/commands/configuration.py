@@ -7,6 +7,7 @@ from codegen.twoletter.rows import DMC141X, Field, Row, Takes
 CONFIGURATION: tuple[Row, ...] = (
     Row(
         name="AF",
+        burned=True,
         title="Analog feedback",
         group="Configuration",
         takes=Takes.AXIS_NUMBERS,
@@ -76,6 +77,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="CC",
+        burned=True,
         title="Configure port 2",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -93,6 +95,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="CE",
+        burned=True,
         title="Configure encoder",
         group="Configuration",
         takes=Takes.AXIS_NUMBERS,
@@ -137,6 +140,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="CN",
+        burned=True,
         title="Configure switches",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -226,6 +230,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="EO",
+        burned=True,
         title="Echo",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -244,6 +249,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="LZ",
+        burned=True,
         title="Leading zeros",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -264,6 +270,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="MT",
+        burned=True,
         title="Motor type",
         group="Configuration",
         takes=Takes.AXIS_NUMBERS,
@@ -281,6 +288,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="PF",
+        burned=True,
         title="Position format",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -298,6 +306,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="VF",
+        burned=True,
         title="Variable format",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -355,6 +364,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="CW",
+        burned=True,
         title="Copyright / data bit",
         group="Configuration",
         takes=Takes.NUMBERS,
@@ -373,6 +383,7 @@ CONFIGURATION: tuple[Row, ...] = (
     ),
     Row(
         name="SA",
+        burned=True,
         title="Set address",
         group="Configuration",
         takes=Takes.NUMBERS,

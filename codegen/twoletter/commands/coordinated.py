@@ -143,6 +143,7 @@ COORDINATED: tuple[Row, ...] = (
     ),
     Row(
         name="VS",
+        burned=True,
         title="Vector speed",
         group="Coordinated motion",
         takes=Takes.NUMBERS,
@@ -165,6 +166,7 @@ COORDINATED: tuple[Row, ...] = (
     ),
     Row(
         name="VA",
+        burned=True,
         title="Vector acceleration",
         group="Coordinated motion",
         takes=Takes.NUMBERS,
@@ -187,6 +189,7 @@ COORDINATED: tuple[Row, ...] = (
     ),
     Row(
         name="VD",
+        burned=True,
         title="Vector deceleration",
         group="Coordinated motion",
         takes=Takes.NUMBERS,
@@ -232,6 +235,7 @@ COORDINATED: tuple[Row, ...] = (
     ),
     Row(
         name="VT",
+        burned=True,
         title="Smoothing, vector",
         group="Coordinated motion",
         takes=Takes.NUMBERS,

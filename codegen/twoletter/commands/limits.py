@@ -7,6 +7,7 @@ from codegen.twoletter.rows import Row, Takes
 LIMITS: tuple[Row, ...] = (
     Row(
         name="ER",
+        burned=True,
         title="Error limit",
         group="Limits and errors",
         takes=Takes.AXIS_NUMBERS,
@@ -24,6 +25,7 @@ LIMITS: tuple[Row, ...] = (
     ),
     Row(
         name="OE",
+        burned=True,
         title="Off on error",
         group="Limits and errors",
         takes=Takes.AXIS_NUMBERS,
@@ -41,6 +43,7 @@ LIMITS: tuple[Row, ...] = (
     ),
     Row(
         name="FL",
+        burned=True,
         title="Forward software limit",
         group="Limits and errors",
         takes=Takes.AXIS_NUMBERS,
@@ -58,6 +61,7 @@ LIMITS: tuple[Row, ...] = (
     ),
     Row(
         name="BL",
+        burned=True,
         title="Reverse software limit",
         group="Limits and errors",
         takes=Takes.AXIS_NUMBERS,

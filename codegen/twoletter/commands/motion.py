@@ -44,6 +44,7 @@ MOTION: tuple[Row, ...] = (
     ),
     Row(
         name="SP",
+        burned=True,
         title="Speed",
         group="Motion",
         takes=Takes.AXIS_NUMBERS,
@@ -62,6 +63,7 @@ MOTION: tuple[Row, ...] = (
     ),
     Row(
         name="AC",
+        burned=True,
         title="Acceleration",
         group="Motion",
         takes=Takes.AXIS_NUMBERS,
@@ -80,6 +82,7 @@ MOTION: tuple[Row, ...] = (
     ),
     Row(
         name="DC",
+        burned=True,
         title="Deceleration",
         group="Motion",
         takes=Takes.AXIS_NUMBERS,
@@ -206,6 +209,7 @@ MOTION: tuple[Row, ...] = (
     ),
     Row(
         name="IT",
+        burned=True,
         title="Smoothing, independent",
         group="Motion",
         takes=Takes.AXIS_NUMBERS,
@@ -223,6 +227,7 @@ MOTION: tuple[Row, ...] = (
     ),
     Row(
         name="KS",
+        burned=True,
         title="Stepper smoothing",
         group="Motion",
         takes=Takes.AXIS_NUMBERS,
@@ -268,6 +273,7 @@ MOTION: tuple[Row, ...] = (
     ),
     Row(
         name="DV",
+        burned=True,
         title="Dual velocity loop",
         group="Motion",
         takes=Takes.AXIS_NUMBERS,

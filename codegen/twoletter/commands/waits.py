@@ -25,6 +25,7 @@ WAITS: tuple[Row, ...] = (
     ),
     Row(
         name="TW",
+        burned=True,
         title="Time-out for MC",
         group="Program flow",
         takes=Takes.AXIS_NUMBERS,

@@ -71,13 +71,13 @@ def _look(unit: Unit, axis: int, value: int) -> None:
     unit.changed = True
 
 
-def _path(setter: str, saved: bool = True) -> Store:
+def _path(setter: str) -> Store:
     """A parameter of coordinated motion."""
 
     def follow(unit: Unit, axis: int, value: int) -> None:
         getattr(unit.motion.path, setter)(value / ONE)
 
-    return Store(per_axis=False, apply=follow, saved=saved)
+    return Store(per_axis=False, apply=follow)
 
 
 def _phase(setter: str, whole: bool = False) -> Store:
