@@ -16,6 +16,7 @@ from app.crash import CrashHook
 from app.desk import Desk
 from app.files import Files
 from app.follow import Follow, Program
+from app.found_working import FoundWorking
 from app.leaving import Leaving
 from app.run import Run
 from app.search import Candidate, Search
@@ -71,6 +72,7 @@ class Studio(QObject):
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.which = WhichModel(self.connection, settings, self.desk.ask)
+        self.met = FoundWorking(self.connection, self.desk.ask, self.connection.stop, self.run.upload)
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
@@ -135,6 +137,7 @@ class Studio(QObject):
             self.ear.look,
             self.follow.look,
             self.which.look,
+            self.met.look,
             self.search.look,
             self.stop_key.stay_first,
         ):

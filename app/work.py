@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from device.api import Controller
+from widgets.display.threads import thread_words
 
 SEQUENCE = "S"  # a coordinated motion, as BG and ST name it
 
@@ -22,10 +23,16 @@ class Work:
         """As a sentence; nothing when it rests."""
         axes = self.moving.replace(SEQUENCE, "")
         found = ["a program runs"] if self.threads else []
-        found += [f"{' '.join(axes)} {'moves' if len(axes) == 1 else 'move'}"] if axes else []
-        found += ["a coordinated motion goes on"] if SEQUENCE in self.moving else []
+        path = " on a common path" if SEQUENCE in self.moving else ""
+        found += [f"{' '.join(axes)} {'moves' if len(axes) == 1 else 'move'}{path}"] if axes else []
+        found += ["a coordinated motion goes on"] if path and not axes else []
         words = ", ".join(found)
         return f"{words[0].upper()}{words[1:]}." if words else ""
+
+    def told(self, source: Sequence[str]) -> str:
+        """The same with every thread and the line it is on, a line each; `source`: the program's lines, if known."""
+        threads = [thread_words(number, line, source) for number, line in self.threads]
+        return "\n".join([*threads, *([f"▲  {Work(moving=self.moving).words}"] if self.moving else [])])
 
 
 def questions(controller: Controller) -> tuple[str, ...]:

@@ -125,13 +125,6 @@ def works(state: dict[str, Any]) -> bool:
     return any(axis["moving"] for axis in state["axes"].values()) or any(each["running"] for each in state["threads"])
 
 
-def path_goes_on(machine: SimulatorProcess) -> bool:
-    """A coordinated motion is no motion of one axis: its commanded place is looked at twice."""
-    before = machine.state()["axes"]["X"]["commanded"]
-    live(0.05)
-    return bool(machine.state()["axes"]["X"]["commanded"] != before)
-
-
 def exit_button(hands: Mouse) -> None:
     hands.act("exit")
 
@@ -185,17 +178,16 @@ def test_leaving_asks_when_the_machine_works_and_only_then(hands: Mouse, machine
         if what in REST:
             until(lambda: not works(machine.state()), "the machine to rest")
         live(dice.choice((0.0, 0.0, 0.1, 0.7)))  # at once, or after a while
-        state = machine.state()
-        busy = works(state) or (what == "a coordinated motion" and path_goes_on(machine))
+        busy = works(machine.state())
         assert busy == (what in WORK)
         asked = turn_away(hands, way)
         assert asked == busy, f"{what}, {way.__name__}: {'asked' if asked else 'not asked'}"
         if asked:
-            assert works(machine.state()) or path_goes_on(machine)  # the question alone stops nothing
+            assert works(machine.state())  # the question alone stops nothing
             answer(hands, "Cancel")
             assert hands.studio.connection.controller.kind is Kind.MACHINE and hands.window.isVisible()
             type_commands(hands, "ST", "HX")
-            until(lambda: not works(machine.state()) and not path_goes_on(machine), "the machine to rest")
+            until(lambda: not works(machine.state()), "the machine to rest")
         else:
             come_back(hands, machine)
     assert len(deck) == rounds

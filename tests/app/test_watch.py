@@ -39,7 +39,7 @@ def click_around(stage: Stage, seed: int, times: int, control: bool = False) -> 
     dice = random.Random(seed)
     machines = [machine(stage, control)]
     for _ in range(times):
-        widget = dice.choice(targets(stage))
+        widget = dice.choice(targets(stage, control))
         point = QPoint(dice.randrange(max(1, widget.width())), dice.randrange(max(1, widget.height())))
         QTest.mouseClick(widget, Qt.MouseButton.LeftButton, pos=point)
         stage.go(1)
@@ -68,10 +68,10 @@ def test_the_clicker_would_notice(stage: Stage) -> None:
     pytest.fail("400 clicks in Control and nothing has left")
 
 
-def targets(stage: Stage) -> list[QWidget]:
-    """Every visible button of every window, except what ends the program or is the switch itself."""
-    header = stage.studio.window.header
-    spared = [header.switch.control]
+def targets(stage: Stage, control: bool) -> list[QWidget]:
+    """Every visible button of every window, except what ends the program or changes the switch."""
+    switch = stage.studio.window.header.switch
+    spared = [switch.watch if control else switch.control]
     found: list[QWidget] = []
     for button in stage.studio.window.findChildren(QAbstractButton):
         default = getattr(button, "defaultAction", lambda: None)()

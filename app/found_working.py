@@ -1,0 +1,55 @@
+"""A machine that works already when it is met: what runs and moves there, and what can be done about it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+
+from app.connection import Connection
+from app.run import Ask
+from app.tick import failure_of
+from app.work import questions, work_of
+from device.api import Controller, Kind, State
+
+TITLE = "The machine is at work"
+SINCE = "Since when, and what ran before, is not known. Connecting has changed nothing: the studio only watches."
+
+
+class FoundWorking:
+    """`look` is called with each tick; it asks the machine once for every connection."""
+
+    def __init__(self, connection: Connection, ask: Ask, stop: Callable[[], None], upload: Callable[[], None]) -> None:
+        self._connection, self._ask, self._stop, self._upload = connection, ask, stop, upload
+        self._met: Controller | None = None
+        self._answer: Future[tuple[float, ...]] | None = None
+
+    def look(self) -> None:
+        """Asks a machine that has just been met what it does, and tells the person when it works."""
+        controller = self._connection.controller
+        if controller is not self._met:
+            if controller.kind is not Kind.MACHINE or controller.state is not State.READY:
+                return
+            self._met, self._answer = controller, controller.read(*questions(controller))
+        if controller.control:  # what works from now on may have been started from here
+            self._answer = None
+        if self._answer is not None and self._answer.done():
+            answer, self._answer = self._answer, None
+            self._tell(controller, answer)
+
+    def _tell(self, controller: Controller, answer: Future[tuple[float, ...]]) -> None:
+        if failure_of(answer):
+            found = controller.resting()  # a question may come at any moment: then nothing more is asked
+        else:
+            listing = controller.waiting.listing
+            found = work_of(controller, answer.result()).told(listing.text.splitlines() if listing is not None else ())
+        if found:
+            answers = [
+                ("Go on watching", _nothing),
+                ("Stop everything", self._stop),
+                ("Read its program", self._upload),
+            ]
+            self._ask(TITLE, f"{found}\n{SINCE}", answers, "warning")
+
+
+def _nothing() -> None:
+    """The person has seen it."""
