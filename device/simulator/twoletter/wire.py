@@ -69,6 +69,8 @@ def _echoed_return(unit: Unit) -> bytes:
 
 
 def _line_character(unit: Unit, port: Port, byte: int) -> None:
+    if port.number == 1:
+        operator.interrupt(unit, port, byte)
     if byte == CONTROL_R:
         port.control = True
     elif byte == ENTER or (byte == ord(";") and waiting_input(unit, port) is not None):

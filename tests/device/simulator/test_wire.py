@@ -168,3 +168,15 @@ def test_xon_is_heard_while_a_long_answer_waits() -> None:
     assert bench.type("UL\r", ms=100) == ""
     answer = bench.type("\x11", ms=100)
     assert answer == program.replace("\n", "\r\n") + "\r\n\x1a:"
+
+
+@pytest.mark.parametrize(("field", "calls"), [(1, 1), (2, 4)])
+def test_characters_of_a_command_interrupt_too(field: int, calls: int) -> None:
+    # dmc-1412-1414.txt l.3565-3576: m is the interrupt of port 1, o alone makes its characters data
+    bench = Bench("dmc1412")
+    bench.load(f"#A\nN=0\nCI {field}\n#B\nJP#B\n#COMINT\nN=N+1\nEN,1")
+    bench.simulation.execute("#A")
+    bench.wait(20)
+    for character in "TC1\r":
+        bench.type(character, ms=10)
+    assert bench.simulation.unit.state.variables["N"] // 65536 == calls

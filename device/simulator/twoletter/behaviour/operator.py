@@ -63,6 +63,11 @@ def character(unit: Unit, port: Port, byte: int) -> None:
             port.data_text.append(byte)
     else:
         return
+    interrupt(unit, port, byte)
+
+
+def interrupt(unit: Unit, port: Port, byte: int) -> None:
+    """CI's first two fields, whether the character is data or part of a command (dmc-1412-1414.txt l.3565-3576)."""
     wanted = unit.state.interrupts[port.number - 1]
     if unit.state.comint_armed and (wanted == 2 or (wanted == 1 and byte == ENTER)):
         unit.state.comint_due = True
