@@ -18,12 +18,15 @@ from device.transport import LineSettings
 
 Result = TypeVar("Result")
 CONNECT_S = 40.0  # a simulator may have to compile its sample loop first
+STARTING_S = 10.0  # a computer that is busy needs as long to start one
 TICK_S = 0.02
 DEFAULT_BAUD = 9600
 
 
 def line_settings(options: argparse.Namespace) -> LineSettings:
     """The line as the options describe it."""
+    if options.baud is not None and options.baud < 1:
+        raise Failure("--baud must be greater than 0")
     return LineSettings(baud=options.baud or DEFAULT_BAUD, handshake=options.handshake, address=options.address)
 
 
@@ -49,12 +52,14 @@ def connected(options: argparse.Namespace) -> Iterator[Controller]:
 
 
 def wait_for(controller: Controller, port: str) -> None:
-    """Waits until the controller has answered; the reason when it does not."""
+    """Waits until the controller has answered, a simulated one also while it starts; the reason when it does not."""
     end = time.monotonic() + CONNECT_S
+    starts = time.monotonic() + (0 if is_machine(controller) else STARTING_S)
     last = ""
     while controller.state is not State.READY:
         last = next((notice.text for notice in reversed(controller.notices())), last)
-        if controller.state is State.LOST or time.monotonic() > end:
+        now = time.monotonic()
+        if (controller.state is State.LOST and now > starts) or now > end:
             raise Failure(f"{port}: {last or 'no answer from a controller'}")
         time.sleep(TICK_S)
 

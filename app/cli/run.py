@@ -14,7 +14,7 @@ from typing import Any
 from app.cli.failure import DONE, NO, Failure
 from app.cli.limits import apply_limits
 from app.cli.report import report
-from app.cli.sources import Loaded, complete, load_any, read_profile, read_text, target
+from app.cli.sources import Loaded, complete, load_any, read_profile, read_text, readable, target
 from app.cli.stimulus import Happening, read_stimulus
 from app.cli.trace import Columns, Trace, check_ending, write_trace
 from codegen.models import Model
@@ -48,6 +48,7 @@ def read_plants(path: str | None) -> dict[str, Plant] | None:
         return None
     from device.simulator.plant_file import PlantUnreadable, load_plants
 
+    readable(Path(path))
     try:
         return load_plants(Path(path))
     except (PlantUnreadable, OSError) as problem:
