@@ -18,6 +18,7 @@ from app.files import Files
 from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.leaving import Leaving
+from app.right_machine import RightMachine
 from app.run import Run
 from app.search import Candidate, Search
 from app.session import Session
@@ -66,7 +67,8 @@ class Studio(QObject):
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
-        self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self)
+        self.right = RightMachine(self.connection, self.session, self.desk.ask)
+        self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.search = Search(seek or connect, clock, self)

@@ -13,6 +13,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.connection import Connection
 from app.held import Held, Holding, Sent, burn_words, execute_words, held_by
+from app.right_machine import RightMachine
 from app.session import Session
 from app.tick import Tick, failure_of
 from codegen.generate import Listing
@@ -43,11 +44,13 @@ class Run(QObject):
         session: Session,
         tick: Tick,
         ask: Ask,
+        right: RightMachine,
         parent: QObject | None = None,
         now: Callable[[], datetime] = datetime.now,
     ) -> None:
         super().__init__(parent)
         self._connection, self._session, self._tick, self._ask = connection, session, tick, ask
+        self._right = right
         self.job: Job[Any] | None = None
         self.doing = ""
         self._now = now
@@ -69,21 +72,7 @@ class Run(QObject):
                 "problem",
             )
             return
-        mismatch = self._mismatch()
-        if mismatch:
-            self._ask("Another controller", mismatch, [("Download anyway", lambda: self._download(then))], "warning")
-        else:
-            self._download(then)
-
-    def _mismatch(self) -> str:
-        """Why this program may not be for this controller; empty when it is."""
-        found, wanted = self._connection.controller.model, self._session.document.setup.limits
-        if found is None or found == wanted:
-            return ""
-        return (
-            f"The program is written for {wanted.name.upper()} ({wanted.axes}), but {found.name.upper()} "
-            f"({found.axes}) is connected. Change the model in the setup, or download all the same."
-        )
+        self._right.careful("Download", partial(self._download, then))
 
     def _download(self, then: Callable[[], None] | None) -> None:
         listing = self._session.listing  # as sent: the document may change meanwhile
@@ -95,11 +84,14 @@ class Run(QObject):
 
     def execute(self) -> None:
         """Runs the program when it is the one that was verified; otherwise says what is held and asks what is meant."""
+        self._right.careful("Execute", self._execute)
+
+    def _execute(self) -> None:
         held = self.held()
         if held.holding is Holding.SAME:
             self.run_in_controller()
         elif held.holding is Holding.UNKNOWN:
-            self._read_first(self.execute)
+            self._read_first(self._execute)
         else:
             download = ("Download and execute", lambda: self.download(self.run_in_controller))
             run = ("Run what is in the controller", partial(self._run_held, held))
@@ -128,9 +120,12 @@ class Run(QObject):
 
     def burn(self) -> None:
         """Says what will be burned and what the next power-up will do, then burns when told to."""
+        self._right.careful("Burn", self._ask_to_burn)
+
+    def _ask_to_burn(self) -> None:
         held = self.held()
         if held.holding is Holding.UNKNOWN:
-            self._read_first(self.burn)
+            self._read_first(self._ask_to_burn)
             return
         name = program_label(self._session.document.program)
         burn, first = ("Burn", partial(self._burn, held)), ("Download first", partial(self.download, self.burn))

@@ -97,7 +97,7 @@ def test_another_model_than_the_setups_is_asked_about(stage: Stage) -> None:
     stage.go()
     trigger(stage, "download")
     words, answers = asked(stage)
-    assert "SSC2" in words
+    assert "SSC, two axes" in words
     assert answers == ["Download anyway"]
     stage.go(30)
     assert rig.program == []
