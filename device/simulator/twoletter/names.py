@@ -10,6 +10,7 @@ from codegen.twoletter.fixed import ONE, string_value
 from device.simulator.twoletter import behaviour
 from device.simulator.twoletter.arithmetic import FUNCTIONS
 from device.simulator.twoletter.behaviour import registers
+from device.simulator.twoletter.behaviour.io import converted
 from device.simulator.twoletter.state import AXES
 
 if TYPE_CHECKING:
@@ -69,7 +70,7 @@ class SimulatedNames:
         if name == "OUT":
             return self._bit(state.outputs, number, self.unit.model.outputs)
         if name == "AN" and 1 <= number <= len(state.analog):
-            return state.analog[number - 1]
+            return converted(state.analog[number - 1])
         if name in FUNCTIONS:
             return FUNCTIONS[name](argument)
         raise EvaluationError(6)

@@ -11,6 +11,16 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
+CONVERTER_COUNTS: Final = 2048  # 12 bits over +/-10 V: 0.005 V a count (SSC manual l.1404)
+CONVERTER_VOLTS: Final = 10
+
+
+def converted(volts: int) -> int:
+    """What the converter of the analog inputs makes of a voltage; both in 1/65536 V."""
+    counts = (volts * CONVERTER_COUNTS * 2 + CONVERTER_VOLTS * ONE) // (2 * CONVERTER_VOLTS * ONE)
+    counts = min(max(counts, -CONVERTER_COUNTS), CONVERTER_COUNTS - 1)
+    return counts * CONVERTER_VOLTS * ONE // CONVERTER_COUNTS
+
 
 def _set_output(unit: Unit, number: int, on: bool) -> None:
     if not 1 <= number <= unit.model.outputs:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from codegen.twoletter.fixed import ONE
 from codegen.twoletter.nodes import Dimension, Operand
 from device.simulator.twoletter.behaviour.following import numbers
+from device.simulator.twoletter.behaviour.io import converted
 from device.simulator.twoletter.state import AXES, CommandError, Recording, Strand
 
 if TYPE_CHECKING:
@@ -114,7 +115,7 @@ RECORDED: Final[dict[str, Callable[[Unit, int], int]]] = {
     "SC": lambda unit, axis: unit.motion.stop_code(axis) * ONE,
     "NO": lambda unit, axis: unit.motion.status_word(axis) * ONE,
     "TT": lambda unit, axis: round(unit.motion.torque(axis) / 10.0 * TORQUE_FULL) * ONE,
-    "AF": lambda unit, axis: unit.state.analog[axis] if axis < len(unit.state.analog) else 0,
+    "AF": lambda unit, axis: converted(unit.state.analog[axis]) if axis < len(unit.state.analog) else 0,
 }
 DOES: Final = {"RA": record_arrays, "RD": record_data, "RC": record_start, "AL": arm_latch}
 READS: Final[dict[str, Callable[[Unit, int], int]]] = {
