@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from codegen.twoletter.evaluate import EvaluationError
 from device.simulator.times import COMMAND
-from device.simulator.twoletter import behaviour, wire
+from device.simulator.twoletter import behaviour, routines, wire
 from device.simulator.twoletter.behaviour import recording
 from device.simulator.twoletter.idling import Idling
 from device.simulator.twoletter.state import FOREVER, CommandError, NotYet, Port, Strand, Thread, Wait
 from device.simulator.twoletter.unit import Unit
-
-MC_TIMEOUT = 99  # stop code
 
 
 class Interpreter:
@@ -101,7 +99,7 @@ class Interpreter:
             if uart.buffer or uart.overruns:
                 wire.take_characters(unit, port)
         if state.comint_due:
-            self._call_comint()
+            routines.call_comint(unit)
         for strand in state.waiting():
             wait = strand.wait
             if wait is not None and (wait.wake <= now or (wait.kind == "output" and self._has_room(wait))):
@@ -309,7 +307,7 @@ class Interpreter:
         if isinstance(strand, Port):
             self._prompt(strand)
         if wait.kind == "MC":
-            self._check_position(wait)
+            routines.call_when_late(self.unit, wait)
 
     def _goes_on(self, strand: Strand, wait: Wait) -> bool:
         """Carries on with a command that takes several steps; True when it is done and was not refused."""
@@ -333,29 +331,12 @@ class Interpreter:
         else:
             self._next_of_line(port)
 
-    def _check_position(self, wait: Wait) -> None:
-        """MC gave up after TW: stop code 99, and #MCTIME (dmc-1412-1414.txt l.3049)."""
-        unit, main = self.unit, self.unit.state.threads[0]
-        late = [axis for axis in wait.axes if not unit.motion.in_position(axis)]
-        for axis in late:
-            unit.motion.set_stop_code(axis, MC_TIMEOUT)
-        if late and self._may_call(main, "MCTIME"):
-            unit.call(main, "MCTIME", main.pc)
-
     def _watching(self) -> bool:
         """Whether the motion can end a wait or call a routine, so that it must keep up with the commands."""
-        unit = self.unit
-        state = unit.state
-        for strand in state.waiting():
+        for strand in self.unit.state.waiting():
             if strand.wait is not None and strand.wait.watches:
                 return True
-        if unit.routines and state.threads[0].running:
-            return (
-                "LIMSWI" in unit.routines
-                or "POSERR" in unit.routines
-                or ("ININT" in unit.routines and state.interrupt_armed)
-            )
-        return False
+        return routines.watched(self.unit)
 
     def _after_sample(self) -> bool:
         """Ends waits whose watches have tripped and calls routines; True when anything happened."""
@@ -369,38 +350,6 @@ class Interpreter:
         motion.forget_events()
         self._alarmed = False
         if unit.routines and unit.state.threads[0].running:
-            happened |= self._call_routines()
+            called, self._alarmed = routines.call_due(unit)
+            happened |= called
         return happened
-
-    def _may_call(self, main: Thread, label: str) -> bool:
-        unit = self.unit
-        return (
-            main.running
-            and label in unit.routines
-            and len(main.stack) < unit.model.subroutine_levels
-            and all(frame.kind != label for frame in main.stack)
-        )
-
-    def _call_comint(self) -> None:
-        """A character or line came that CI wants to know of (dmc-1412-1414.txt l.3576)."""
-        state, main = self.unit.state, self.unit.state.threads[0]
-        state.comint_due = False
-        if self._may_call(main, "COMINT"):
-            state.comint_armed = False
-            self.unit.call(main, "COMINT", main.pc)
-
-    def _call_routines(self) -> bool:
-        """#LIMSWI, #POSERR and #ININT are called while their condition holds (dmc-1412-1414.txt l.2979-3042)."""
-        unit = self.unit
-        state, motion, main = unit.state, unit.clock.motion, unit.state.threads[0]
-        at_limit = any(motion.driving_into_limit(axis) for axis in unit.axes())
-        beyond = any(motion.error_exceeded(axis) for axis in unit.axes())
-        low = state.interrupt_armed and ~state.inputs & state.interrupt_mask
-        self._alarmed = at_limit or beyond or bool(low)
-        for due, label in ((at_limit, "LIMSWI"), (beyond, "POSERR"), (low, "ININT")):
-            if due and self._may_call(main, label):
-                if label == "ININT":
-                    state.interrupt_armed = not unit.profile.interrupt_once
-                unit.call(main, label, main.pc)
-                return True
-        return False
