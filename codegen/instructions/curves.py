@@ -30,8 +30,8 @@ from codegen.instructions.instruction import Group, Instruction
 from codegen.numbers import plain
 from codegen.setup import Setup
 from codegen.tables import Grid, read_table
+from codegen.twoletter.commands import COMMANDS
 
-FURTHEST = 32767  # counts of one record of contour mode (CD)
 LONGEST_CYCLE = 8_388_607  # counts of the master (EM)
 WIDEST_INTERVAL = 32767  # counts of the master between two points (EP)
 INTERVALS = {2**n: n for n in range(1, 9)}  # ms: DT
@@ -69,7 +69,7 @@ class ContourMode(Instruction):
     axes: str = value(AxisSet(label="Axes", help="The axes that follow the table."), "X")
     timed: bool = value(
         Flag(
-            label="The first column is the interval",
+            label="First column is the interval",
             phrase="with intervals of their own",
             help="The first column of the table says how long each row takes, in ms.",
         ),
@@ -130,10 +130,11 @@ class ContourMode(Instruction):
         return None
 
     def setup_problem(self, setup: Setup) -> tuple[str, str] | None:
+        furthest = int(COMMANDS["CD"].high or 0)
         for number, (_, steps) in enumerate(self.records()):
             for letter, step in zip(self.axes, steps, strict=True):
-                if abs(step) * setup.axis(letter).scale > FURTHEST - 1:
-                    return "table", f"Table: row {number + 1} moves {letter} by more than {FURTHEST} counts"
+                if abs(step) * setup.axis(letter).scale > furthest - 1:  # rounding may add one
+                    return "table", f"Table: row {number + 1} moves {letter} by more than {furthest} counts"
         return None
 
     def own_warning(self, setup: Setup) -> tuple[str, str] | None:

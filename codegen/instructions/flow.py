@@ -81,7 +81,7 @@ def samples_note(time: str, setup: Setup, exactly: bool = False) -> str:
     samples = samples_of(time, setup, exactly)
     if samples is None:
         return ""
-    return f" ({samples} samples = {decimal(samples * setup.sample / 1024, 1)} ms)"
+    return f" ({samples} sample{'s' * (samples != 1)} = {decimal(samples * setup.sample / 1024, 1)} ms)"
 
 
 class JumpKind(StrEnum):

@@ -118,7 +118,7 @@ class ElectronicGearing(Instruction):
     )
 
     def own_problem(self) -> tuple[str, str] | None:
-        if self.master is Master.ENCODER and self.ratio["XYZW".index(self.axis)]:
+        if self.master in (Master.ENCODER, Master.COMMANDED) and self.ratio["XYZW".index(self.axis)]:
             return "ratio", f"{self.axis} cannot follow itself"
         return None
 

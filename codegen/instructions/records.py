@@ -263,6 +263,12 @@ class RecordData(Instruction):
         return self.count.strip() or (min(sizes, key=int) if all(map(str.isdecimal, sizes)) else "")
 
     def own_problem(self) -> tuple[str, str] | None:
+        arrays = [row.array.strip() for row in self.recordings]
+        if twice := next((each for each in arrays if arrays.count(each) > 1), None):
+            return "recordings", f"Arrays: {twice} is there twice"
+        sizes = [int(row.size) for row in self.recordings if row.size.strip().isdecimal()]
+        if sizes and self.count.strip().isdecimal() and int(self.count) > min(sizes):
+            return "count", f"How often must be at most {min(sizes)}, the elements of the smallest array"
         if self.endless and not self.values:
             return "count", "How often is missing (the size of the arrays that are filled over and over)"
         return None

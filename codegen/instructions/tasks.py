@@ -10,6 +10,7 @@ from enum import StrEnum
 from codegen.fields import Choice, InputNumber, LabelName, ListOf, Number, value
 from codegen.instructions.instruction import Group, Instruction
 from codegen.instructions.operator import PORT_PHRASES, PORT_WORDS, Port
+from codegen.setup import Setup
 
 
 class Terminal(StrEnum):
@@ -57,6 +58,11 @@ class Execute(Instruction):
     thread: str = value(
         Number(label="Thread", low=0, high=3, whole=True, literal=True, help="0 to 3; 0 is the main one."), "1"
     )
+
+    def own_warning(self, setup: Setup) -> tuple[str, str] | None:
+        if self.thread.strip() == "0":
+            return "thread", "Thread 0 is the program itself: it can be started only after it has ended"
+        return None
 
     @classmethod
     def example(cls) -> Execute:

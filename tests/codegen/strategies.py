@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from typing import Any
 
 from hypothesis import strategies as st
@@ -26,6 +27,7 @@ from codegen.fields import (
     OutputNumber,
     PerAxis,
     Quantity,
+    Table,
     Text,
     VariableName,
     fields_of,
@@ -80,15 +82,17 @@ def decimals(low: float, high: float, whole: bool = False) -> st.SearchStrategy[
     return scaled.map(lambda number: f"{'-' if number < 0 else ''}{abs(number) // 1000}.{abs(number) % 1000:03d}")
 
 
-def values(field: Field) -> st.SearchStrategy[Any]:
-    """Valid values of a field."""
+def values(field: Field, plain_only: bool = False) -> st.SearchStrategy[Any]:
+    """Valid values of a field; `plain_only` leaves expressions out, whose values only the controller knows."""
+    if plain_only and isinstance(field, Quantity | Number):
+        field = dc.replace(field, literal=True)
     match field:
         case Choice(kind=kind):
             return st.sampled_from(list(kind))
         case Flag():
             return st.booleans()
         case PerAxis(of=inner):
-            one = st.one_of(st.just(""), texts(inner))
+            one = st.one_of(st.just(""), texts(inner, plain_only))
             return st.tuples(one, one, one, one)
         case Quantity(dimension=dimension, literal=literal):
             low, high = SPANS[dimension]
@@ -111,6 +115,8 @@ def values(field: Field) -> st.SearchStrategy[Any]:
             return CODE
         case MessageText(most=most):
             return MESSAGE.map(lambda text: text[: most or 50])
+        case Table():
+            return tables()
         case Text():
             return st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=60).map(str.strip)
         case LabelName():
@@ -122,12 +128,20 @@ def values(field: Field) -> st.SearchStrategy[Any]:
         case InputNumber() | OutputNumber():
             return st.integers(1, 8).map(str)
         case ListOf(row=row):
-            return st.lists(items(row), min_size=1, max_size=6).map(tuple)
+            return st.lists(items(row, plain_only), min_size=1, max_size=6).map(tuple)
         case _:
             raise AssertionError(f"no values for {field}")
 
 
-def texts(field: Field) -> st.SearchStrategy[str]:
+@st.composite
+def tables(draw: st.DrawFn) -> str:
+    """Tables of one to four columns, with small steps as they are real."""
+    columns, rows = draw(st.integers(1, 4)), draw(st.integers(1, 9))
+    cell = st.integers(-200, 200).map(lambda number: f"{number / 1000:.3f}")
+    return "\n".join("\t".join(draw(cell) for _ in range(columns)) for _ in range(rows))
+
+
+def texts(field: Field, plain_only: bool = False) -> st.SearchStrategy[str]:
     """Valid values for one axis of a per-axis field."""
     match field:
         case Flag():
@@ -137,17 +151,22 @@ def texts(field: Field) -> st.SearchStrategy[str]:
         case Limit():
             return st.one_of(st.just("off"), decimals(-900, 900))
         case _:
-            return values(field)
+            return values(field, plain_only)
 
 
-def items(kind: type[Any]) -> st.SearchStrategy[Any]:
+def items(kind: type[Any], plain_only: bool = False) -> st.SearchStrategy[Any]:
     """Instances of an instruction or a row, optional values left out now and then."""
     made = {}
     for name, field in fields_of(kind).items():
-        strategy = values(field)
+        strategy = values(field, plain_only)
         optional = not field.required and not isinstance(field, Flag | PerAxis | AxisSet)
         made[name] = st.one_of(st.just(""), strategy) if optional else strategy
     return st.builds(kind, **made)
+
+
+def plain_items(kind: type[Any]) -> st.SearchStrategy[Any]:
+    """Instances whose numbers are numbers."""
+    return items(kind, plain_only=True)
 
 
 def instructions() -> st.SearchStrategy[Instruction]:
