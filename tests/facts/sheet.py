@@ -190,8 +190,8 @@ class Prober(Player):
         self.axes = model(model_name).axes
         self.enough = frozenset(enough) if model_name not in enough else frozenset()
 
-    def probe(self) -> None:
-        """Every fact, in order; an assertion names the line of the sheet."""
+    def probe(self) -> int:
+        """Every fact, in order; an assertion names the line of the sheet. Answers how many there were."""
         for fact in self.entry.about(self.example.model):
             self.place = fact.line
             if fact.verb == "does":
@@ -203,6 +203,7 @@ class Prober(Player):
                     self.step("plant", fact.text, [])
             elif fact.verb != "never":
                 getattr(self, f"do_{fact.verb}")(fact.text)
+        return len(self.entry.about(self.example.model))
 
     def _does(self, fact: Fact) -> None:
         """A fresh controller does what the steps say."""
