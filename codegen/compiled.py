@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from functools import lru_cache
 
+from codegen.drift import cut
 from codegen.instructions import Execute, Instruction, Jump, Label, LoopRate, Subroutine, TwoLetterCode
 from codegen.numbers import parse_number
 from codegen.program import assigned
@@ -51,6 +52,8 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
     found = problems(instruction, setup)
     errors = tuple(finding for finding in found if finding.severity == "error")
     warnings = tuple(finding for finding in found if finding.severity != "error")
+    if advice := cut(instruction):
+        warnings += (Finding("distance", advice, "warning"),)
     defines, target = _labels(instruction)
     if errors:
         return Compiled((), (), 0, defines, target, (), (), errors, warnings, "", True)

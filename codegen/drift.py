@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from codegen.expressions import Bad, Binary, Expression, Negative, Number, walk
 from codegen.fields import AXES, Dimension, value_of
-from codegen.instructions import Repeat, SingleAxisMove
+from codegen.instructions import Instruction, Repeat, SingleAxisMove
 from codegen.instructions.flow import RepeatMode
 from codegen.instructions.motion import MoveMode
 from codegen.numbers import plain, shown
@@ -55,19 +55,19 @@ def drift(step: Step, setup: Setup) -> str | None:
     return None
 
 
+def cut(move: Instruction) -> str | None:
+    """What to know of a relative move by an expression with a minus, which the controller rounds downwards."""
+    if not isinstance(move, SingleAxisMove) or move.mode is not MoveMode.BY:
+        return None
+    distance = value_of(move.distance)
+    if isinstance(distance, Fraction | Bad) or not any(map(_is_minus, walk(distance))):
+        return None
+    return "Distance: the controller rounds it down to whole counts, so going back may be one count longer than forth"
+
+
 def reverses(steps: Steps) -> bool:
-    """Whether a relative move goes by an expression with a minus, which the controller rounds downwards."""
-    for step in steps:
-        move = step.instruction
-        if not step.enabled:
-            continue
-        if isinstance(move, SingleAxisMove) and move.mode is MoveMode.BY:
-            distance = value_of(move.distance)
-            if not isinstance(distance, Fraction | Bad) and any(map(_is_minus, walk(distance))):
-                return True
-        if reverses(step.body):
-            return True
-    return False
+    """Whether one of the steps, or of those inside them, is such a move."""
+    return any(step.enabled and (cut(step.instruction) or reverses(step.body)) for step in steps)
 
 
 def _is_minus(node: Expression) -> bool:

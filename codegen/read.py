@@ -6,6 +6,7 @@ import dataclasses as dc
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from typing import Any, TypeAlias
 
@@ -14,6 +15,7 @@ from codegen.fields import (
     AxisName,
     AxisSet,
     Context,
+    Dimension,
     Field,
     ListOf,
     PathQuantity,
@@ -23,6 +25,7 @@ from codegen.fields import (
     fields_of,
     is_shown,
     joined,
+    value_of,
 )
 from codegen.instructions.instruction import Instruction
 from codegen.setup import Finding, Setup, never_set_up, setup_problems
@@ -338,7 +341,15 @@ def counts_text(item: Any, name: str, setup: Setup, axis: str = "") -> str:
     if isinstance(field, PerAxis | ListOf) or field.empty(value) or problem_of(item, name, setup, axis):
         return ""
     counts = field.counts(value, context_of(item, name, setup, axis))
-    return counts.text if counts else ""
+    if counts is None:
+        return ""
+    return f"{counts.text}, rounded down to whole counts" if _is_cut(field, value) else counts.text
+
+
+def _is_cut(field: Field, value: Any) -> bool:
+    """Whether the controller works the length out itself: it takes the whole counts below (PR -0.5 goes by -1)."""
+    length = isinstance(field, Quantity) and field.dimension in (Dimension.DISTANCE, Dimension.POSITION)
+    return length and not isinstance(value_of(value), Fraction)
 
 
 def unit_text(item: Any, name: str, setup: Setup, axis: str = "") -> str:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codegen import files
+from codegen import files, read
 from codegen.compiled import _compiled
 from codegen.document import Document
 from codegen.generate import Listing, generate
@@ -315,3 +315,18 @@ def test_axes_of_the_model(model: str) -> None:
     for letter in "XYZW":
         listing = generate(document(SingleAxisMove(axis=letter, distance="1", speed="9"), setup=setup))
         assert listing.is_complete == (letter in setup.letters)
+
+
+def test_a_move_back_by_an_expression_says_outside_loops_too_that_it_is_rounded_down() -> None:
+    """commands.md, 11: an argument of step 1 is rounded downwards: 0.63 counts forth are 0, back -1."""
+    there, back = SingleAxisMove(distance="LEN", speed="5"), SingleAxisMove(distance="-LEN", speed="5")
+    setup = Setup(model="ssc1").with_axis("X", Axis(counts_per_unit="637"))
+    listing = generate(Document(Program("P", main=(Step("s1", there), Step("s2", back))), setup))
+    told = [
+        (finding.step, finding.field, finding.severity) for finding in listing.problems if "rounds" in finding.message
+    ]
+    assert told == [("s2", "distance", "warning")]
+    assert [read.counts_text(move, "distance", setup) for move in (there, back)] == [
+        "LEN × 637, rounded down to whole counts",
+        "-LEN × 637, rounded down to whole counts",
+    ]

@@ -350,7 +350,7 @@ def test_counts_and_warnings() -> None:
     assert counts_text(move, "distance", SETUP) == "3 counts"
     assert warning_of(move, "distance", SETUP) == "Distance will really be 0.00075 in"
     assert counts_text(move, "speed", SETUP) == "20000 counts/s" and warning_of(move, "speed", SETUP) is None
-    assert counts_text(SingleAxisMove(distance="LEN"), "distance", SETUP) == "LEN × 4000"
+    assert counts_text(SingleAxisMove(distance="LEN"), "distance", SETUP) == "LEN × 4000, rounded down to whole counts"
     ramps = AccelDecel(acceleration=("", "40", "", ""))
     assert counts_text(ramps, "acceleration", SETUP, "Y") == "39936 counts/s²"
     assert warning_of(ramps, "acceleration", SETUP, "Y") == "Acceleration will really be 39.936 mm/s²"
