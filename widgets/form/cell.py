@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QApplication, QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 SPACE = 8  # between a field that says nothing and the next one, px
+LITTLE = 4  # the same in a long form
 
 
 class Cell(QWidget):
@@ -26,6 +27,7 @@ class Cell(QWidget):
         *,
         wide: bool,
         speaks: bool = True,
+        tight: bool = False,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -41,7 +43,7 @@ class Cell(QWidget):
             label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # never widens the field
             label.hide()
         name_focusable(editor, name, help_text)
-        self._lay_out(editor, wide=wide, foot=self.fontMetrics().height() + 2 if speaks else SPACE)
+        self._lay_out(editor, wide=wide, foot=LITTLE if tight else self.fontMetrics().height() + 2 if speaks else SPACE)
         self.editor.changed.connect(self.changed)
         self._name = name
 

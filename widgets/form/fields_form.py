@@ -9,7 +9,7 @@ from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
@@ -20,6 +20,8 @@ from widgets.parts.look import look
 
 SILENT = (fields.Flag, fields.Choice, fields.AxisName, fields.ListOf)  # seldom wrong: no line is kept free
 COLUMNS = 3  # of a table of axes
+AXIS_SETS = ("axes", "slaves")  # names of the fields that say which axes take part
+MOST_ROWS = 12  # a form that is longer has its last fields beside the others
 Key = tuple[str, str]  # field name, axis letter ("" for a field that is not per axis)
 
 
@@ -33,6 +35,8 @@ class FieldsForm(QWidget):
         self.offers = offers
         self.narrow = narrow  # labels above their fields, lists instead of rows of buttons
         self.item: Any = None
+        self.tight = False  # no line is kept free below the fields
+        self.path = ""  # of a row in a list: the axes that all rows move together
         self.cells: dict[Key, Cell] = {}
         self.labels: dict[str, list[QWidget]] = {}
         self.letters: list[tuple[QLabel, str, tuple[str, ...]]] = []  # before a row of these fields
@@ -67,6 +71,13 @@ class FieldsForm(QWidget):
             if follow is not None:
                 follow(offers)
 
+    def show_path(self, letters: str) -> None:
+        """The axes that the rows of the list move together."""
+        if letters != self.path:
+            self.path = letters
+            if self.item is not None:
+                self.refresh()
+
     def refresh(self) -> None:
         """Shows and hides fields, and tells units, counts and problems as they are now."""
         for name, widgets in self.labels.items():
@@ -84,17 +95,20 @@ class FieldsForm(QWidget):
         cell.setVisible(visible)
         if not visible:
             return
-        setup = self.offers.setup
+        setup, field = self.offers.setup, fields.fields_of(self.item)[name]
+        if isinstance(field, fields.ListOf):
+            cell.editor.show_path(read.row_axes(self.item, field))
+        axis = axis or read.row_axis(field, self.path)
         problem = read.problem_of(self.item, name, setup, axis)
         if isinstance(cell.editor, RowsEditor) and cell.editor.rows:
             problem = None  # the open row says it at the field
         elif problem and isinstance(cell.editor, RowsEditor):
             problem = cell.editor.invitation
-        label = fields.fields_of(self.item)[name].label
+        label = field.label
         counts = read.counts_text(self.item, name, setup, axis)
         cell.show_facts(
             read.unit_text(self.item, name, setup, axis),
-            "" if counts == _part(getattr(self.item, name), axis) else counts,
+            "" if counts == _part(getattr(self.item, name), key[1]) else counts,
             _short(read.warning_of(self.item, name, setup, axis), label, axis),
             _short(problem, label, axis),
         )
@@ -106,10 +120,15 @@ class FieldsForm(QWidget):
         return not axis or axis in self._axes() or bool(_part(getattr(self.item, name), axis))
 
     def _axes(self) -> str:
-        """The axes that take part: those the instruction names, else all."""
-        named = fields.fields_of(self.item).get("axes")
-        chosen: str = self.item.axes if isinstance(named, fields.AxisSet) else ""
-        return chosen or self.offers.setup.letters
+        """The axes that take part: those the instruction or the list names, else all."""
+        if self.path:
+            return self.path
+        members = fields.fields_of(self.item)
+        for name in AXIS_SETS:
+            if isinstance(members.get(name), fields.AxisSet) and read.shown(self.item, name):
+                chosen: str = getattr(self.item, name)
+                return chosen or self.offers.setup.letters
+        return self.offers.setup.letters
 
     def focus_first(self) -> None:
         """Puts the cursor into the first field that has a problem, else into the first one."""
@@ -126,22 +145,32 @@ class FieldsForm(QWidget):
         self.cells.clear()
         self.labels.clear()
         self.letters.clear()
-        self.grid = QGridLayout(self.inside)
-        self.grid.setContentsMargins(0, 0, 0, 0)
-        self.grid.setHorizontalSpacing(12)
-        self.grid.setVerticalSpacing(0)
-        row = 0
-        for per_axis, members in _groups(fields.fields_of(self.item)):
-            add = self._add_rows if not per_axis else self._add_list if self.narrow else self._add_table
-            row = add(members, row)
-        self.grid.setRowStretch(row, 1)
-        self.grid.setColumnStretch(5, 1)
+        beside = QHBoxLayout(self.inside)
+        beside.setContentsMargins(0, 0, 0, 0)
+        beside.setSpacing(16)
+        columns = _columns(fields.fields_of(self.item), self.narrow)
+        self.tight = len(columns) > 1
+        for members in columns:
+            self.grid = QGridLayout()
+            self.grid.setContentsMargins(0, 0, 0, 0)
+            self.grid.setHorizontalSpacing(8 if self.tight else 12)
+            self.grid.setVerticalSpacing(0)
+            self._fill(members)
+            beside.addLayout(self.grid)
         self.column.addWidget(self.inside)
         old.hide()
         self.column.removeWidget(old)
         old.deleteLater()
         if self.isVisible():
             self._order_tabs()
+
+    def _fill(self, members: Mapping[str, fields.Field]) -> None:
+        row = 0
+        for per_axis, group in _groups(members):
+            add = self._add_rows if not per_axis else self._add_list if self.narrow else self._add_table
+            row = add(group, row)
+        self.grid.setRowStretch(row, 1)
+        self.grid.setColumnStretch(5, 1)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Tab order can only be set once all editors stand in one window."""
@@ -218,8 +247,8 @@ class FieldsForm(QWidget):
         self.grid.addWidget(axis, row, 0)
 
     def _cell(self, name: str, axis: str, field: fields.Field, editor: QWidget, words: str, *, wide: bool) -> Cell:
-        speaks = not isinstance(field, SILENT) and not isinstance(getattr(field, "of", None), SILENT)
-        cell = Cell(editor, words, field.help, wide=wide, speaks=speaks, parent=self.inside)
+        silent = isinstance(field, SILENT) or isinstance(getattr(field, "of", None), SILENT)
+        cell = Cell(editor, words, field.help, wide=wide, speaks=not silent, tight=self.tight, parent=self.inside)
         cell.changed.connect(lambda value: self._changed(name, axis, value))
         self.cells[name, axis] = cell
         return cell
@@ -258,6 +287,23 @@ def make_axis_editor(field: fields.Field, offers: Offers, *, narrow: bool = Fals
     make = maker_for(inner, AXIS_EDITORS) or maker_for(inner, EDITORS)
     editor: QWidget = make(inner, offers)
     return in_little_room(editor) if narrow else editor
+
+
+def _columns(members: Mapping[str, fields.Field], narrow: bool) -> list[dict[str, fields.Field]]:
+    """The fields in one column, or in two of about the same height where one would be too high for a small screen."""
+    names = list(members)
+    rows = [_rows_of(field) for field in members.values()]
+    if narrow or sum(rows) <= MOST_ROWS:
+        return [dict(members)]
+    split = min(range(1, len(names)), key=lambda at: max(sum(rows[:at]), sum(rows[at:])))
+    return [{name: members[name] for name in part} for part in (names[:split], names[split:])]
+
+
+def _rows_of(field: fields.Field) -> int:
+    """About how high a field is."""
+    if isinstance(field, fields.ListOf):
+        return 8
+    return 4 if isinstance(field, fields.PerAxis | fields.Table) else 1
 
 
 def _groups(members: Mapping[str, fields.Field]) -> Iterator[tuple[bool, dict[str, fields.Field]]]:

@@ -30,6 +30,9 @@ class RowsEditor(QWidget):
         self.offers = offers
         self.narrow = narrow
         self.rows: tuple[Any, ...] = ()
+        members = fields.fields_of(field.row).values()
+        high = len(members) >= MANY or any(isinstance(each, fields.PerAxis) for each in members)
+        self.beside = high and not narrow
         self.list = QListWidget()
         self.list.setAccessibleName(field.label)
         self.list.setUniformItemSizes(True)
@@ -61,10 +64,10 @@ class RowsEditor(QWidget):
         for widget in (self.list, self.empty):
             entries.addWidget(widget)
         entries.addLayout(bar)
-        beside = not self.narrow and len(fields.fields_of(self.field.row)) >= MANY
+        beside = self.beside
         whole = QHBoxLayout(self) if beside else QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(16 if beside else 8)
+        whole.setSpacing(12 if beside else 8)
         whole.addLayout(entries, 1)
         whole.addWidget(self.form)
         if beside:
@@ -87,6 +90,13 @@ class RowsEditor(QWidget):
         """Other names for the open entry."""
         self.offers = offers
         self.form.show_offers(offers)
+
+    def show_path(self, letters: str) -> None:
+        """The axes that all entries move together."""
+        if letters != self.form.path:
+            self.form.show_path(letters)
+            for number, row in enumerate(self.rows):
+                self.list.item(number).setText(self._words(number + 1, row))
 
     # ---- what the buttons do
 
@@ -151,16 +161,20 @@ class RowsEditor(QWidget):
         self.buttons["clear"].setEnabled(bool(self.rows))
 
     def _words(self, number: int, row: Any) -> str:
-        context = fields.Context(self.offers.setup)
-        shown = [(name, each) for name, each in fields.fields_of(row).items() if read.shown(row, name)]
-        parts = [each.text(getattr(row, name), context) for name, each in shown if not each.empty(getattr(row, name))]
+        setup, path = self.offers.setup, self.form.path
+        parts = []
+        for name, each in fields.fields_of(row).items():
+            if read.shown(row, name) and not each.empty(getattr(row, name)):
+                context = read.context_of(row, name, setup, read.row_axis(each, path))
+                parts.append(each.text(getattr(row, name), context))
         return f"{number}    {'  '.join(part for part in parts if part) or '…'}"
 
     def _button(self, text: str, picture: str, action: Callable[[], None], name: str = "") -> QPushButton:
-        button = QPushButton(icon(picture), "" if self.narrow else text)
+        short = self.narrow or (self.beside and text != "Add")
+        button = QPushButton(icon(picture), "" if short else text)
         button.setToolTip(f"{name or text}: {self.field.label}")
         button.setMinimumHeight(look().control)
-        if self.narrow:
+        if short:
             button.setProperty("role", "segment")  # less room beside the picture
         button.setAutoDefault(False)
         button.setAccessibleName(f"{name or text}: {self.field.label}")
