@@ -121,11 +121,12 @@ class Session:
 
     def check_rest(self) -> None:
         """Raises Unfit while a program runs or an axis moves."""
-        for thread in range(self.model.threads):
-            if self.talk.number(f"_XQ{thread}", "F5.0") >= 0:
+        numbers, letters = self.talk.numbers, self.model.axes + ("S" if self.model.coordinated else "")
+        for thread, line in enumerate(numbers([f"_XQ{thread}" for thread in range(self.model.threads)], 5)):
+            if line >= 0:
                 raise Unfit(f"a program runs in thread {thread}; end it (HX) and try again")
-        for letter in self.model.axes + ("S" if self.model.coordinated else ""):
-            if self.talk.number(f"_BG{letter}", "F2.0") != 0:
+        for letter, moves in zip(letters, numbers([f"_BG{letter}" for letter in letters], 2), strict=True):
+            if moves:
                 raise Unfit(f"{letter} moves; wait until everything stands and try again")
         before = self._places()
         self.talk.listen(STILL_S)
@@ -133,10 +134,10 @@ class Session:
             if now[0] != was[0] or abs(now[1] - was[1]) > STIRRED:
                 raise Unfit(f"{letter} moves; wait until everything stands and try again")
 
-    def _places(self) -> list[tuple[float, float]]:
+    def _places(self) -> list[tuple[int, int]]:
         """Commanded and actual position of every axis."""
-        number = self.talk.number
-        return [(number(f"_RP{axis}", "F10.0"), number(f"_TP{axis}", "F10.0")) for axis in self.model.axes]
+        both = self.talk.numbers([f"_{name}{axis}" for axis in self.model.axes for name in ("RP", "TP")], 10)
+        return list(zip(both[::2], both[1::2], strict=True))
 
     def prepare(self) -> None:
         """No echo and leading zeros, as the answers are read; both are set back at the end."""

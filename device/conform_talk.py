@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -12,6 +13,7 @@ QUIET_S: Final = 0.06  # after a prompt; adapters keep characters up to 16 ms
 SILENCE_S: Final = 0.4  # after anything else
 FIRST_S: Final = 1.0  # until the first character
 MOST_S: Final = 60.0  # for one answer: a thousand lines at 19 200 baud take 43 s
+LINE: Final = 60  # characters of a line that every controller takes
 PROMPTS: Final = (b":", b"?")
 NUMBER: Final = re.compile(r"[- ]?\d+(?:\.\d+)?")
 
@@ -116,6 +118,19 @@ class Talk:
         if not reply.accepted or found is None:
             raise reply.odd()
         return float(found.group().replace(" ", ""))
+
+    def numbers(self, expressions: Sequence[str], digits: int) -> list[int]:
+        """Several whole numbers in as few lines as they fit."""
+        found: list[int] = []
+        items = [f"{expression}{{F{digits}.0}}" for expression in expressions]
+        fit = max(1, (LINE - len("MG ")) // (1 + max(map(len, items), default=0)))
+        for first in range(0, len(items), fit):
+            reply = self.line("MG " + ",".join(items[first : first + fit]))
+            parts = re.findall(f"[- ]\\d{{{digits}}}", reply.text)
+            if not reply.accepted or len(parts) != len(items[first : first + fit]):
+                raise reply.odd()
+            found += [int(part.replace(" ", "")) for part in parts]
+        return found
 
     def code(self) -> int:
         """The error code, by TC."""

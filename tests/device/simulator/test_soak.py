@@ -27,6 +27,7 @@ def resident_mb() -> float:
     return int(STATM.read_text().split()[1]) * PAGE_MB if STATM.exists() else 0.0
 
 
+@pytest.mark.timeout(7200)
 def test_a_soak() -> None:
     """Ten virtual minutes (long: a day), seed 1."""
     seconds = count(600, 86_400)
@@ -46,6 +47,7 @@ def test_a_soak() -> None:
     record("soak: virtual over real time", command, 1, soak.seconds / (time.perf_counter() - began), "")
 
 
+@pytest.mark.timeout(1800)
 @pytest.mark.parametrize("name", ["ssc1", "ssc4", "dmc1412", "dmc1414"])
 def test_other_controllers(name: str) -> None:
     soak = Soak(seed=2, name=name)
@@ -63,6 +65,7 @@ def test_the_same_soak_is_the_same() -> None:
     assert ends[0] == ends[1]
 
 
+@pytest.mark.timeout(1800)
 def test_a_chain_of_eight() -> None:
     """Every controller runs its program and is asked in turn; each answers for itself, in a frame."""
     chance = random.Random(4)
