@@ -45,6 +45,7 @@ ROWS: tuple[Row, ...] = (
     Row("save", "Save", "File", "Saves the program", "Ctrl+S", "save", "main", "Save"),
     Row("save_as", "Save as…", "File", "Saves the program under another name", "Ctrl+Shift+S"),
     Row("export_code", "Export code…", "File", "Writes the two-letter code into a file", "", "export"),
+    Row("options", "Settings…", "File", "Colours, what happens at start, the simulator's line", "Ctrl+,", "settings"),
     Row("exit", "Exit", "File", "Leaves the program", "Ctrl+Q", "exit", "main", "Exit"),
     _program("undo", "Edit"),
     _program("redo", "Edit"),

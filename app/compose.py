@@ -18,6 +18,7 @@ from app.files import Files
 from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.leaving import Leaving
+from app.options import Options
 from app.right_machine import RightMachine
 from app.run import Run
 from app.search import Candidate, Search
@@ -73,6 +74,7 @@ class Studio(QObject):
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
+        self.options = Options(settings, self._theme, self.window)
         self.which = WhichModel(self.connection, settings, self.desk.ask)
         self.met = FoundWorking(self.connection, self.desk.ask, self.connection.stop, self.run.upload)
         self.actions = Actions(self._handlers(), self.program.commands, self)
@@ -103,11 +105,11 @@ class Studio(QObject):
         desk, run, start = self.desk, self.run, self.start
         return {
             "new": self.files.new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
-            "export_code": self.files.export_code, "exit": self._exit,
+            "export_code": self.files.export_code, "options": self.options.show, "exit": self._exit,
             "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
-            "setup": desk.show_setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
+            "setup": self._setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
@@ -149,7 +151,7 @@ class Studio(QObject):
         self.connection.changed.connect(self._attach)
         self.session.document_changed.connect(self._document_changed)
         self.session.replaced.connect(self._another_document)
-        self.start.setup_wanted.connect(self.desk.show_setup)
+        self.start.setup_wanted.connect(self._setup)
         self.start.exit_wanted.connect(self._exit)
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
@@ -221,6 +223,12 @@ class Studio(QObject):
         from app.about import about_words
 
         self.desk.ask("About Twoletter Studio", about_words(), (), "info")
+
+    def _setup(self) -> None:
+        self.desk.show_setup()
+        identity, page = self.connection.controller.identity, self.desk.setup_page
+        if page is not None:
+            page.show_connected(identity.serial if identity is not None else None)
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

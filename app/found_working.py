@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
 
 from app.connection import Connection
 from app.run import Ask
 from app.tick import failure_of
-from app.work import questions, work_of
+from app.work import Inquiry, inquire
 from device.api import Controller, Kind, State
 
 TITLE = "The machine is at work"
@@ -21,7 +20,7 @@ class FoundWorking:
     def __init__(self, connection: Connection, ask: Ask, stop: Callable[[], None], upload: Callable[[], None]) -> None:
         self._connection, self._ask, self._stop, self._upload = connection, ask, stop, upload
         self._met: Controller | None = None
-        self._answer: Future[tuple[float, ...]] | None = None
+        self._asked: Inquiry | None = None
 
     def look(self) -> None:
         """Asks a machine that has just been met what it does, and tells the person when it works."""
@@ -29,19 +28,19 @@ class FoundWorking:
         if controller is not self._met:
             if controller.kind is not Kind.MACHINE or controller.state is not State.READY:
                 return
-            self._met, self._answer = controller, controller.read(*questions(controller))
+            self._met, self._asked = controller, inquire(controller)
         if controller.control:  # what works from now on may have been started from here
-            self._answer = None
-        if self._answer is not None and self._answer.done():
-            answer, self._answer = self._answer, None
-            self._tell(controller, answer)
+            self._asked = None
+        if self._asked is not None and self._asked.answer.done():
+            asked, self._asked = self._asked, None
+            self._tell(controller, asked)
 
-    def _tell(self, controller: Controller, answer: Future[tuple[float, ...]]) -> None:
-        if failure_of(answer):
+    def _tell(self, controller: Controller, asked: Inquiry) -> None:
+        if failure_of(asked.answer):
             found = controller.resting()  # a question may come at any moment: then nothing more is asked
         else:
             listing = controller.waiting.listing
-            found = work_of(controller, answer.result()).told(listing.text.splitlines() if listing is not None else ())
+            found = asked.work().told(listing.text.splitlines() if listing is not None else ())
         if found:
             answers = [
                 ("Go on watching", _nothing),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
@@ -15,7 +14,7 @@ from app.desk import Desk
 from app.files import Files
 from app.run import Run
 from app.tick import failure_of
-from app.work import questions, work_of
+from app.work import Inquiry, inquire
 from device.api import Controller, Kind, State, StopState
 
 TITLE = "Leave Twoletter Studio?"
@@ -28,7 +27,7 @@ class Asking:
     """The machine was asked what it does, and who wants to know; they hear None when it matters no longer."""
 
     controller: Controller
-    answer: Future[tuple[float, ...]]
+    asked: Inquiry
     until: float
     then: Callable[[str | None], None]
 
@@ -75,8 +74,7 @@ class Leaving(QObject):
             then(words)
             return
         controller = self._connection.controller
-        answer = controller.read(*questions(controller))
-        self._asking = Asking(controller, answer, controller.clock() + PATIENCE_S, then)
+        self._asking = Asking(controller, inquire(controller), controller.clock() + PATIENCE_S, then)
 
     def _drop(self) -> None:
         asking, self._asking = self._asking, None
@@ -119,10 +117,9 @@ class Leaving(QObject):
             return
         if asking.controller is not self._connection.controller:
             self._drop()
-        elif asking.answer.done():
+        elif asking.asked.answer.done():
             self._asking = None
-            failed = failure_of(asking.answer)
-            asking.then(UNKNOWN if failed else work_of(asking.controller, asking.answer.result()).words)
+            asking.then(UNKNOWN if failure_of(asking.asked.answer) else asking.asked.work().words)
         elif asking.controller.clock() >= asking.until:
             self._asking = None
             asking.then(self._at_once() or UNKNOWN)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass
 
 from device.api import Controller
@@ -35,26 +36,26 @@ class Work:
         return "\n".join([*threads, *([f"▲  {Work(moving=self.moving).words}"] if self.moving else [])])
 
 
-def questions(controller: Controller) -> tuple[str, ...]:
-    """The operands that tell it."""
-    return (
-        *(f"_XQ{number}" for number in range(_threads(controller))),
-        *(f"_BG{each}" for each in _motions(controller)),
-    )
+@dataclass(frozen=True)
+class Inquiry:
+    """What a controller is asked; its type may become known before it answers, so this stays as it was asked."""
+
+    threads: int
+    motions: str
+    answer: Future[tuple[float, ...]]
+
+    def work(self) -> Work:
+        """What the answer means; it has come."""
+        values = self.answer.result()
+        threads = tuple((number, int(line)) for number, line in enumerate(values[: self.threads]) if line >= 0)
+        moving = [each for each, value in zip(self.motions, values[self.threads :], strict=True) if value]
+        return Work(threads, "".join(moving))
 
 
-def work_of(controller: Controller, values: Sequence[float]) -> Work:
-    """What the answers to these questions mean."""
-    count = _threads(controller)
-    threads = tuple((number, int(line)) for number, line in enumerate(values[:count]) if line >= 0)
-    moving = [each for each, value in zip(_motions(controller), values[count:], strict=True) if value]
-    return Work(threads, "".join(moving))
-
-
-def _threads(controller: Controller) -> int:
-    return controller.model.threads if controller.model is not None else 1
-
-
-def _motions(controller: Controller) -> str:
-    coordinated = controller.model is not None and controller.model.coordinated
-    return controller.axes + (SEQUENCE if coordinated else "")
+def inquire(controller: Controller) -> Inquiry:
+    """Asks which threads run and what moves."""
+    model = controller.model
+    threads = model.threads if model is not None else 1
+    motions = controller.axes + (SEQUENCE if model is not None and model.coordinated else "")
+    asked = [*(f"_XQ{number}" for number in range(threads)), *(f"_BG{each}" for each in motions)]
+    return Inquiry(threads, motions, controller.read(*asked))

@@ -193,6 +193,8 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "welcome-nothing", start.welcome
     start.show_serial()
     yield "serial-setup", start.serial
+    studio.options.show()
+    yield "settings", studio.options.page
     desk.show_setup()
     yield "setup", desk.setup_page
     desk.setup_page.rows["X"].unit.setCurrentIndex(desk.setup_page.rows["X"].unit.findData(Unit.MM))

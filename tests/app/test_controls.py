@@ -138,7 +138,9 @@ def test_every_panel_can_be_brought_to_the_front_from_the_menu(stage: Stage, tit
 HEIGHTS: dict[str, Callable[[Stage], QWidget]] = PLACES
 
 
-@pytest.mark.parametrize("place", ["the window", "the welcome window", "the serial setup", "the setup", "a question"])
+@pytest.mark.parametrize(
+    "place", ["the window", "the welcome window", "the serial setup", "the setup", "the settings", "a question"]
+)
 def test_buttons_and_fields_are_at_least_32_px_high(place: str, stage: Stage) -> None:
     stage.connect("simulator")
     window = HEIGHTS[place](stage).window()
@@ -166,7 +168,7 @@ def test_f1_opens_the_page_of_the_panel_that_has_the_focus(stage: Stage, title: 
     assert title in stage.studio.desk.help.findChildren(QTextBrowser)[0].toPlainText()
 
 
-@pytest.mark.parametrize("place", ["the welcome window", "the serial setup", "the setup"])
+@pytest.mark.parametrize("place", ["the welcome window", "the serial setup", "the setup", "the settings"])
 def test_every_dialog_names_a_page_that_exists(place: str, stage: Stage) -> None:
     page = topic_of(PLACES[place](stage))
     assert page in Pages()

@@ -56,6 +56,12 @@ def _setup(stage: Stage) -> QWidget:
     return stage.studio.desk.setup_page
 
 
+def _settings(stage: Stage) -> QWidget:
+    stage.studio.options.show()
+    assert stage.studio.options.page is not None
+    return stage.studio.options.page
+
+
 def _question(stage: Stage) -> QWidget:
     stage.studio.desk.ask("Sure?", "Really?", [("Yes", lambda: None)])
     assert stage.studio.desk.question is not None
@@ -105,6 +111,7 @@ PLACES: dict[str, Callable[[Stage], QWidget]] = {
     "the welcome window": _welcome,
     "the serial setup": _serial,
     "the setup": _setup,
+    "the settings": _settings,
     "a question": _question,
     "an upload": _upload,
     "help": _help,
@@ -338,7 +345,7 @@ def test_no_word_of_ours_calls_it_an_emergency_stop(stage: Stage) -> None:
 
 
 def test_dialogs_of_the_studio_are_never_modal(stage: Stage) -> None:
-    for make in (_welcome, _serial, _setup, _question, _upload, _help, _file_dialog):
+    for make in (_welcome, _serial, _setup, _settings, _question, _upload, _help, _file_dialog):
         dialog = make(stage)
         assert isinstance(dialog, QDialog)
         assert not dialog.isModal()

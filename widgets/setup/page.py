@@ -151,13 +151,20 @@ class SetupPage(QDialog):
         self.rows = {letter: AxisRow(letter, setup.axis(letter)) for letter in "XYZW"}
         self.inputs = NameGrid("Input", setup.input_names)
         self.outputs = NameGrid("Output", setup.output_names)
+        self.serial, self.take_serial = QLineEdit(setup.serial_number), QPushButton("Take the connected one's")
+        self.serial.setAccessibleName("Serial number of the controller")
+        self.serial.setPlaceholderText("any")
+        self.serial.setToolTip("Before download, execute and burn on a controller with another number you are asked")
+        self.show_connected(None)
         self.facts, self.problem = QLabel(), QLabel()
         self.done_button, self.cancel = QPushButton("Done"), QPushButton("Cancel")
         self.question = self._make_question()
         self._lay_out()
         self.model.currentIndexChanged.connect(self._judge)
+        self.serial.textChanged.connect(self._judge)
         for widget in (*self.rows.values(), self.inputs, self.outputs):
             widget.edited.connect(self._judge)
+        self.take_serial.clicked.connect(self._take_serial)
         self.cancel.clicked.connect(self.reject)
         self.done_button.clicked.connect(self._finish)
         self._judge()
@@ -168,12 +175,24 @@ class SetupPage(QDialog):
         wanted = dc.replace(
             self._before,
             model=str(self.model.currentData()),
+            serial_number=self.serial.text().strip(),
             input_names=self.inputs.names,
             output_names=self.outputs.names,
         )
         for letter, row in self.rows.items():
             wanted = wanted.with_axis(letter, row.axis)
         return wanted
+
+    def show_connected(self, serial: int | None) -> None:
+        """The serial number of the controller that is connected, if it tells one."""
+        self._connected = serial
+        self.take_serial.setEnabled(bool(serial))
+        self.take_serial.setToolTip(
+            f"{serial}, of the controller that is connected" if serial else "No controller that tells a serial number"
+        )
+
+    def _take_serial(self) -> None:
+        self.serial.setText(str(self._connected))
 
     def rescaled(self) -> str:
         """Letters of the axes whose scale differs from before."""
@@ -208,6 +227,8 @@ class SetupPage(QDialog):
         for letter, row in self.rows.items():
             row.setVisible(letter in wanted.letters)
         errors = _scale_problems(wanted)
+        if wanted.serial_number and not (wanted.serial_number.isascii() and wanted.serial_number.isdigit()):
+            errors.append("Serial number: write digits only, as the controller tells it (MG _BN), or nothing")
         errors += [each.message for each in setup_problems(wanted) if each.severity == "error"]
         self.problem.setText(errors[0] if errors else "")
         self.problem.setVisible(bool(errors))
@@ -263,12 +284,16 @@ class SetupPage(QDialog):
         column = QVBoxLayout(page)
         column.setContentsMargins(0, 16, 0, 8)
         column.setSpacing(12)
-        line = QHBoxLayout()
-        line.addWidget(QLabel("Controller model"))
-        line.addWidget(self.model)
-        line.addStretch(1)
-        column.addLayout(line)
-        column.addWidget(self.facts)
+        controller = QGridLayout()
+        controller.setHorizontalSpacing(16)
+        controller.addWidget(QLabel("Controller model"), 0, 0)
+        controller.addWidget(self.model, 0, 1)
+        controller.addWidget(self.facts, 1, 1, 1, 3)
+        controller.addWidget(QLabel("Serial number"), 2, 0)
+        controller.addWidget(self.serial, 2, 1)
+        controller.addWidget(self.take_serial, 2, 2)
+        controller.setColumnStretch(3, 1)
+        column.addLayout(controller)
         heading = QLabel("Unit of each axis, and encoder counts (or steps) in one unit")
         heading.setProperty("role", "heading")
         column.addWidget(heading)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.theme import Choice, Theme
@@ -79,3 +81,30 @@ def test_the_scale_in_words() -> None:
     assert scale_words(Axis(unit=Unit.MM, counts_per_unit="100")) == "1 mm = 100 counts"
     assert "not set up" in scale_words(Axis())
     assert "encoder counts" in scale_words(Axis(unit=Unit.COUNT))
+
+
+def test_the_serial_number_of_the_connected_controller_is_taken_with_one_click(qtbot: QtBot) -> None:
+    page, taken = page_of(qtbot, True)
+    assert not page.take_serial.isEnabled()
+    page.show_connected(4711)
+    QTest.mouseClick(page.take_serial, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(page.done_button, Qt.MouseButton.LeftButton)
+    assert [setup.serial_number for setup, _ in taken] == ["4711"]
+
+
+@pytest.mark.parametrize("serial", [None, 0])
+def test_a_controller_without_a_serial_number_offers_none(qtbot: QtBot, serial: int | None) -> None:
+    page, _ = page_of(qtbot, True)
+    page.show_connected(serial)
+    assert not page.take_serial.isEnabled()
+    assert "No controller" in page.take_serial.toolTip()
+
+
+@pytest.mark.parametrize("text", ["47a", "-5", "4.7", "٤٧"])
+def test_a_serial_number_that_is_no_number_is_a_problem(qtbot: QtBot, text: str) -> None:
+    page, _ = page_of(qtbot, True)
+    page.serial.setText(text)
+    assert "digits only" in page.problem.text()
+    assert not page.done_button.isEnabled()
+    page.serial.setText("")
+    assert page.done_button.isEnabled()
