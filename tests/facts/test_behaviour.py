@@ -9,7 +9,7 @@ import pytest
 from tests.examples.script import Example, Player, read_examples
 
 HERE = Path(__file__).parent
-STATEMENTS = [each for name in ("behaviour", "program") for each in read_examples(HERE / f"{name}.txt")]
+STATEMENTS = [each for name in ("behaviour", "motion", "program") for each in read_examples(HERE / f"{name}.txt")]
 
 
 @pytest.mark.parametrize("statement", STATEMENTS, ids=str)
