@@ -29,7 +29,7 @@ class Bench:
         address: int | None = None,
         **more: object,
     ) -> None:
-        self.simulation = simulation or Simulation(model(name), plants, baud=baud, compiled=False)
+        self.simulation = simulation or Simulation(model(name), plants, baud=baud, compiled=True)
         self.loopback = Loopback(self.simulation)
         self.refuse_to_open = False
         self.sent = bytearray()

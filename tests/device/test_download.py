@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 
 from codegen.models import model
-from device.api import Badge, DownloadFailed, LinkError, State
+from device.api import Badge, DownloadFailed, LinkError, State, StopState
 from device.download import Job, difference, objection, program_lines, refusal, write_dated
 from device.transport import TransportLost
 from tests.device.bench import Bench
 from tests.long import is_long
 
 PROGRAM = "\n".join(["#A", *(f"PR {n},{n};SP {1000 + n};NO LINE {n}" for n in range(60)), "EN"])
+MOMENTS = [0.0, 0.003, 0.011, 0.017, 0.029] if is_long() else [0.0]  # s after a phase has begun
 PHASES = ("before DL", "first line", "first third", "second third", "last line", "backslash", "verifying")
 
 
@@ -28,12 +29,17 @@ def at(bench: Bench, phase: str, job: Job[object]) -> bool:
     return job.phase == {"backslash": "finishing", "verifying": "verifying"}[phase]
 
 
-def begun(phase: str, folder: Path | None = None) -> tuple[Bench, Job[object]]:
-    bench = Bench("ssc4", program_folder=folder).ready()
+def begun(phase: str, later_s: float = 0.0, *typed: str) -> tuple[Bench, Job[object]]:
+    """A download that has come to this phase, or a little further."""
+    bench = Bench("ssc4").ready()
     bench.result(bench.controller.download("#OLD\nEN").future)
+    for line in typed:
+        bench.ask(line)
     bench.sent.clear()
     job = bench.controller.download(PROGRAM)
     bench.run_until(lambda: at(bench, phase, job))
+    bench.run(later_s)
+    assert not job.future.done()
     return bench, job
 
 
@@ -45,6 +51,19 @@ def fails_in_one_sentence(bench: Bench, job: Job[object]) -> str:
     assert "\n" not in text
     assert text.endswith(".")
     return text
+
+
+def true_or_a_sentence(bench: Bench, job: Job[object], erased: bool = False) -> None:
+    """A success only where the controller holds the program (or held it, when it was erased while it was read)."""
+    while_read = erased and job.phase == "verifying"
+    try:
+        bench.result(job.future, 60.0)
+    except LinkError as failure:
+        assert "verified." not in str(failure)
+        assert "\n" not in str(failure)
+        assert str(failure).endswith(".")
+    else:
+        assert while_read or bench.simulation.unit.state.program == tuple(PROGRAM.split("\n"))
 
 
 def works_again(bench: Bench) -> None:
@@ -72,9 +91,10 @@ def test_remarks_are_the_hosts_and_never_sent() -> None:
     assert b"secret" not in bench.sent
 
 
+@pytest.mark.parametrize("later_s", MOMENTS)
 @pytest.mark.parametrize("phase", PHASES)
-def test_a_cable_that_is_pulled(phase: str) -> None:
-    bench, job = begun(phase)
+def test_a_cable_that_is_pulled(phase: str, later_s: float) -> None:
+    bench, job = begun(phase, later_s)
     bench.loopback.unplugged = True
     fails_in_one_sentence(bench, job)
     assert bench.controller.program_badge is not Badge.SAME
@@ -83,9 +103,10 @@ def test_a_cable_that_is_pulled(phase: str) -> None:
     works_again(bench)
 
 
+@pytest.mark.parametrize("later_s", MOMENTS)
 @pytest.mark.parametrize("phase", PHASES)
-def test_a_port_that_goes_away(phase: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    bench, job = begun(phase)
+def test_a_port_that_goes_away(phase: str, later_s: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench, job = begun(phase, later_s)
 
     def gone(data: bytes) -> int:
         raise TransportLost("The port is gone.")
@@ -98,31 +119,42 @@ def test_a_port_that_goes_away(phase: str, monkeypatch: pytest.MonkeyPatch) -> N
     works_again(bench)
 
 
+@pytest.mark.parametrize("later_s", MOMENTS)
 @pytest.mark.parametrize("phase", PHASES)
-def test_garbage_on_the_line(phase: str) -> None:
-    bench, job = begun(phase)
+def test_garbage_on_the_line(phase: str, later_s: float) -> None:
+    bench, job = begun(phase, later_s)
     transmit = bench.simulation.transmit
     noise = [b"\xf7?\x00:", b"\x81\xfe??"]
     bench.simulation.transmit = lambda port: (noise.pop() if noise else b"") + transmit(port)  # type: ignore[method-assign]
-    try:
-        bench.result(job.future, 60.0)
-    except LinkError as failure:
-        assert "\n" not in str(failure)
+    true_or_a_sentence(bench, job)
     works_again(bench)
 
 
+@pytest.mark.parametrize("later_s", MOMENTS)
 @pytest.mark.parametrize("phase", PHASES)
-def test_a_controller_switched_off_and_on(phase: str) -> None:
-    bench, job = begun(phase)
+def test_garbage_towards_the_controller(phase: str, later_s: float) -> None:
+    """Three characters of what is sent are turned into others."""
+    bench, job = begun(phase, later_s)
+    receive, left = bench.simulation.receive, [3]
+
+    def spoiled(port: int, data: bytes) -> None:
+        if left[0] and data:
+            left[0] -= 1
+            data = data[:-1] + b"Z"
+        receive(port, data)
+
+    bench.simulation.receive = spoiled  # type: ignore[method-assign]
+    true_or_a_sentence(bench, job)
+    works_again(bench)
+
+
+@pytest.mark.parametrize("later_s", MOMENTS)
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_controller_switched_off_and_on(phase: str, later_s: float) -> None:
+    bench, job = begun(phase, later_s)
     bench.simulation.stimulus("reset", 0)
     bench.simulation.stimulus("reset", 1)
-    try:
-        bench.result(job.future, 60.0)
-    except LinkError as failure:
-        assert "verified." not in str(failure)
-        assert "\n" not in str(failure)
-    else:
-        assert phase == "verifying"
+    true_or_a_sentence(bench, job, erased=True)
     assert not any(axis["moving"] for axis in bench.simulation.state()["axes"].values())
     works_again(bench)
 
@@ -135,10 +167,15 @@ def test_cancelling_says_what_the_controller_holds() -> None:
     works_again(bench)
 
 
-def test_stop_ends_a_download() -> None:
-    bench, job = begun("first third")
+@pytest.mark.parametrize("later_s", MOMENTS)
+@pytest.mark.parametrize("phase", PHASES)
+def test_stop_ends_a_download_and_what_moves(phase: str, later_s: float) -> None:
+    bench, job = begun(phase, later_s, "SH", "JG 20000;BG X")
+    assert not bench.still()
     bench.controller.stop()
     assert "STOP was pressed" in fails_in_one_sentence(bench, job)
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
+    assert bench.still()
     bench.run(1.0)
     assert "ST" not in bench.result(bench.controller.upload().future).replace("\n", ";").split(";")
     works_again(bench)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -17,7 +15,7 @@ from device.transport import LineSettings, Transport, open_transport
 from tests.long import count, record
 
 LISTING = "\n".join(
-    ["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(count(30, 100))), "EN"]
+    ["#A", *(f"PR {n},{n},{n},{n};SP {n};NO A LONG LINE OF A PROGRAM {n}" for n in range(count(10, 100))), "EN"]
 )
 NO_PTY = pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals there")
 LIMIT_MS = {19200: 60.0, 9600: 110.0}
@@ -128,7 +126,7 @@ def test_latency_of_stop(baud: int) -> None:
 
     with connected(baud, pty=sys.platform != "win32", wrap=tapped) as (process, controller):
         controller.download(LISTING).future.result(120)
-        for trial in range(count(12, 501)):
+        for trial in range(count(9, 501)):
             busy(controller, ("polling", "upload", "download")[trial % 3])
             time.sleep((trial * 37 % 50) / 1000)
             taps[-1].look = True
@@ -139,7 +137,7 @@ def test_latency_of_stop(baud: int) -> None:
             wait_until(lambda: controller.stop_state is StopState.STOPPED)
             wait_until(lambda: controller.polling)
     taken.sort()
-    # of 12 trials the worst is beyond the true p99 in 11 % of runs, the second worst in 0.6 %: that one is judged
+    # of 9 trials the worst is beyond the true p99 in 9 % of runs, the second worst in 0.3 %: that one is judged
     p99 = taken[-2] if len(taken) < 100 else taken[int(len(taken) * 0.99)]
     middle, worst = taken[len(taken) // 2], taken[-1]
     for name, figure in (("median", middle), ("p99", p99), ("worst", worst)):
@@ -148,34 +146,23 @@ def test_latency_of_stop(baud: int) -> None:
     assert p99 <= LIMIT_MS[baud]
 
 
+STATES = ((), ("DL", "#A"), ("QD Q[],0,9", "1"), ("ED",), ("XQ #B",))
+
+
 @pytest.mark.alone
 @pytest.mark.parametrize("pty", [False, pytest.param(True, marks=NO_PTY)])
-@pytest.mark.parametrize("typed", [[], ["DL", "#A"], ["QD Q[],0,9", "1"], ["ED"], ["XQ #B"]])
-def test_stop_over_real_ports(pty: bool, typed: list[str]) -> None:
+def test_stop_over_real_ports(pty: bool) -> None:
+    """An axis jogs, and the port is in command mode, takes a program, an array, an editor's line, an answer."""
     with connected(19200, pty=pty) as (process, controller):
-        controller.download('#B\nIN "HOW MANY",N\nJP #B').future.result(20)
-        for line in ["DM Q[10]", "SH", "JG 50000;BG X", *typed]:
-            assert controller.ask(line).result(5).accepted
-        wait_until(lambda: process.state()["axes"]["X"]["moving"])
-        controller.stop()
-        wait_until(lambda: controller.stop_state is StopState.STOPPED)
-        state = process.state()
-        assert not any(axis["moving"] for axis in state["axes"].values())
-        assert not any(thread["running"] for thread in state["threads"])
+        for typed in STATES:
+            controller.download('#B\nIN "HOW MANY",N\nJP #B').future.result(20)
+            for line in ["DM Q[0]", "DM Q[10]", "SH", "JG 50000;BG X", *typed]:
+                assert controller.ask(line).result(5).accepted, line
+            wait_until(lambda: process.state()["axes"]["X"]["moving"])
+            controller.stop()
+            wait_until(lambda: controller.stop_state is StopState.STOPPED)
+            state = process.state()
+            assert not any(axis["moving"] for axis in state["axes"].values()), typed
+            assert not any(thread["running"] for thread in state["threads"]), typed
         held = controller.upload().future.result(20)
         assert "ST" not in held.replace("\n", ";").split(";")
-
-
-@pytest.mark.alone
-@NO_PTY
-def test_a_frozen_simulator_is_not_confirmed_within_half_a_second() -> None:
-    with connected(19200) as (process, controller):
-        wait_until(lambda: controller.polling)
-        os.kill(process.pid, signal.SIGSTOP)
-        pressed = time.monotonic()
-        controller.stop()
-        wait_until(lambda: controller.stop_state in (StopState.NOT_CONFIRMED, StopState.NO_LINK), 2.0)
-        assert time.monotonic() - pressed <= 0.55
-        assert controller.stop_state is StopState.NOT_CONFIRMED
-        os.kill(process.pid, signal.SIGCONT)
-        wait_until(lambda: controller.stop_state is StopState.STOPPED)

@@ -96,15 +96,15 @@ def test_stop_through_a_line_that_the_controller_holds_by_xoff() -> None:
 
 
 @pytest.mark.alone
-@pytest.mark.parametrize("held", [XOFF, b"PR 100", b"BG", b"DL\rPR 7\rBG", b"WT 400\r"])
-def test_stop_from_what_stands_on_the_wire(held: bytes) -> None:
+def test_stop_from_what_stands_on_the_wire() -> None:
     """Our XOFF to the controller, half a line, a download begun behind the link's back, a port that is busy."""
     with connected(19200, pty=True) as (process, controller):
-        jogging(process, controller)
-        on_the_wire(controller, held)
-        controller.stop()
-        wait_until(lambda: stands(process))
-        wait_until(lambda: controller.stop_state is StopState.STOPPED)
+        for held in (XOFF, b"PR 100", b"BG", b"DL\rPR 7\rBG", b"WT 400\r"):
+            jogging(process, controller)
+            on_the_wire(controller, held)
+            controller.stop()
+            wait_until(lambda: stands(process))
+            wait_until(lambda: controller.stop_state is StopState.STOPPED)
         assert "ST" not in controller.upload().future.result(20).replace("\n", ";").split(";")
 
 

@@ -13,7 +13,7 @@ import pytest
 from device.api import Controller, Kind, LineSettings, State
 from device.simulator.process import SimulatorProcess
 from tests.device.test_latency import NO_PTY, connected, wait_until
-from tests.long import record
+from tests.long import count, is_long, record
 
 SPEED, ACCELERATION = 20_000, 256_000
 STOPPING = SPEED**2 / (2 * ACCELERATION)
@@ -74,13 +74,13 @@ def test_a_studio_that_dies_while_holding_leaves_the_axis_standing(end: str) -> 
 
 
 @pytest.mark.alone
-@pytest.mark.parametrize("pty", [False, pytest.param(True, marks=NO_PTY)])
+@pytest.mark.parametrize("pty", [False, pytest.param(True, marks=NO_PTY)] if is_long() else [sys.platform != "win32"])
 @pytest.mark.parametrize("program", ["", "#A\nN=N+1;MG N\nWT 20\nJP #A\nEN", '#A\nIN "LENGTH",L\nJP #A\nEN'])
 def test_connecting_again_and_again_to_the_same_controller(pty: bool, program: str) -> None:
     """Left at any moment, also while a program talks or asks: connected again within 2 s, every time."""
     line = LineSettings(baud=19200)
     with SimulatorProcess("dmc1412", pty=pty, baud=19200) as process:
-        for turn in range(6):
+        for turn in range(count(3, 12)):
             began = time.monotonic()
             controller = Controller.connect(process.address, line, kind=Kind.SIMULATOR)
             controller.watch("all", ["position.x", "inputs"])
@@ -91,6 +91,6 @@ def test_connecting_again_and_again_to_the_same_controller(pty: bool, program: s
                 if turn == 0 and program:
                     controller.download(program).future.result(20)
                     assert controller.execute("A", anyway=True).result(5).accepted
-                time.sleep(0.037 * turn)
+                time.sleep(0.037 * (turn % 6))
             finally:
                 controller.close()
