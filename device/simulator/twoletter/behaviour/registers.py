@@ -136,11 +136,11 @@ STORES: Final[dict[str, Store]] = {
     "BB": _phase("set_hall_offset"),
     "BI": _phase("set_hall_inputs", whole=True),
     "BM": _phase("set_cycle"),
-    "BO": Store(),
+    "BO": _phase("set_offset"),
     "CW1": Store(per_axis=False),  # the two fields of CW
     "CW2": Store(per_axis=False),
 }
-PHASE: Final = frozenset({"BB", "BI", "BM"})
+PHASE: Final = frozenset({"BB", "BI", "BM", "BO"})
 PATH: Final = frozenset({"VS", "VA", "VD", "VR", "VT"})
 FIELDS: Final = {"CW1": 2, "CW2": 0}  # defaults of what is no row of its own
 
