@@ -67,7 +67,7 @@ class Run(QObject):
             first = errors[0]
             self._ask(
                 "The program can not be downloaded yet",
-                f"{first.message}" + (f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""),
+                _as_sentence(first.message) + (f" ({len(errors) - 1} more in Problems.)" if len(errors) > 1 else ""),
                 [("Show it", lambda: self.show_problem.emit(first.step))],
                 "problem",
             )
@@ -215,3 +215,8 @@ class Run(QObject):
                 finished(future)
 
         self._tick.when_done(future, done)
+
+
+def _as_sentence(words: str) -> str:
+    """A problem as it stands in a list, as a sentence of its own."""
+    return f"{words[:1].upper()}{words[1:].rstrip('.')}."

@@ -299,7 +299,7 @@ class Session(QObject):
         if self.path is None:
             raise NoPath("The program has no file yet")
         if not overwrite and self._file.look() is Disk.CHANGED:
-            raise ChangedOnDisk(f"{self.path.name} was changed by another program since it was opened")
+            raise ChangedOnDisk(f"{self.path.name} was changed by another program since it was opened.")
         self._write(self.path)
 
     def save_as(self, path: Path, *, overwrite: bool = False) -> None:
@@ -368,19 +368,21 @@ class Session(QObject):
         self._changed(old)
 
     def _changed(self, old: Document) -> None:
-        self._keep_insertion_valid()
+        moved = self._keep_insertion_valid()
         self.document_changed.emit(old, self.document)
+        if moved:  # after the document: who shows the place asks for its steps
+            self.insertion_changed.emit()
         self.history_changed.emit()
         if not self._autosave.isActive():
             self._autosave.start()
 
-    def _keep_insertion_valid(self) -> None:
+    def _keep_insertion_valid(self) -> bool:
+        """Forgets places that are gone; whether there was one."""
         program = self.document.program
         before = (self.open_body, self.before)
         self.open_body = self.open_body if is_there(program, self.open_body) else None
         self.before = self.before if is_there(program, self.before) else None
-        if before != (self.open_body, self.before):
-            self.insertion_changed.emit()
+        return before != (self.open_body, self.before)
 
     def _start(self, document: Document, path: Path | None, *, saved: bool) -> None:
         old = self.document

@@ -409,6 +409,19 @@ def test_a_recovery_folder_that_fills_up_is_said_once_in_words(
     assert said.args == ["Unsaved work cannot be kept safe: No space left on device"]
 
 
+def test_a_place_that_is_gone_is_told_after_the_document_that_lost_it(session: Session) -> None:
+    """Who shows the place looks at the steps: they have to be those of the new document."""
+    told: list[str] = []
+    session.document_changed.connect(lambda old, new: told.append("document"))
+    session.insertion_changed.connect(lambda: told.append("place"))
+    (step,) = session.insert([Wait(time="1")])
+    session.insert_before(step)
+    told.clear()
+    session.undo()
+    assert session.before is None
+    assert told == ["document", "place"]
+
+
 def test_the_document_is_frozen(session: Session) -> None:
     with pytest.raises(dc.FrozenInstanceError):
         session.document.program = Program()  # type: ignore[misc]
