@@ -10,7 +10,7 @@ import numpy
 
 from device.simulator.commutation import Commutation
 from device.simulator.following import Cam, Contour
-from device.simulator.kernel import angle, events, inputs, layout
+from device.simulator.kernel import angle, inputs, layout
 from device.simulator.kernel.compiled import Vector, as_state
 from device.simulator.kernel.layout import State, axis_base
 from device.simulator.loops import SampleLoop, loop_for
@@ -101,9 +101,11 @@ class Motion(Moves, Outside):
     # --- waiting ----------------------------------------------------------------------------------------------------
     def watch(self, kind: Watch, axis: int = 0, value: float = 0.0) -> int:
         """Arms a watch and tests it at once; `run` returns after the sample in which it trips."""
-        number = arm(self._state, kind, axis, value)
-        events.test_watch(self._state, layout.WATCH + layout.WATCH_STRIDE * number)
-        return number
+        return arm(self._state, [(kind, axis, value)])[0]
+
+    def watch_all(self, wanted: Sequence[tuple[Watch, int, float]]) -> tuple[int, ...]:
+        """Arms several; `run` returns after the sample in which the last of them trips. Dropped together."""
+        return tuple(arm(self._state, wanted))
 
     def tripped(self, number: int) -> bool:
         """The watch has tripped."""

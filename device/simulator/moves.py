@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from device.simulator.kernel import layout, profile
-from device.simulator.kernel.layout import axis_base
+from device.simulator.kernel.layout import State, axis_base
 from device.simulator.readings import Readings, wrapped
 from device.simulator.registers import Register, write_register
 from device.simulator.sequence import Path
@@ -27,25 +27,25 @@ class Moves(Readings):
         for axis in range(self.axes):
             self._state[axis_base(axis) + layout.LIMIT_ACTIVE_LEVEL] = 1.0 if active_high else 0.0
 
-    def _begin(self, axis: int, mode: int, direction: float) -> int:
-        state, b = self._state, axis_base(axis)
-        state[b + layout.MODE] = mode
-        state[b + layout.MOVING] = 1.0
-        state[b + layout.VELOCITY_V] = 0.0
-        state[b + layout.DIRECTION] = direction
-        state[b + layout.START] = state[b + layout.MARK] = state[b + layout.POSITION]
-        state[b + layout.DISTANCE] = state[b + layout.MARK_DISTANCE] = 0.0
-        state[b + layout.STAGE] = layout.STAGE_NONE
-        state[b + layout.STOP_CODE] = 0.0
-        state[b + layout.AT_SPEED] = state[b + layout.IN_POSITION] = 0.0
-        state[b + layout.SETTLING] = -1.0  # the time of MC begins with the end of this move
-        return b
+    def _begin(self, axis: int, mode: int, direction: float) -> State:
+        part = self._parts[axis]
+        part[layout.MODE] = mode
+        part[layout.MOVING] = 1.0
+        part[layout.VELOCITY_V] = 0.0
+        part[layout.DIRECTION] = direction
+        part[layout.START] = part[layout.MARK] = part[layout.POSITION]
+        part[layout.DISTANCE] = part[layout.MARK_DISTANCE] = 0.0
+        part[layout.STAGE] = layout.STAGE_NONE
+        part[layout.STOP_CODE] = 0.0
+        part[layout.AT_SPEED] = part[layout.IN_POSITION] = 0.0
+        part[layout.SETTLING] = -1.0  # the time of MC begins with the end of this move
+        return part
 
     def begin_position(self, axis: int, target: int) -> None:
         """Starts a move to `target`, as RP will read at its end."""
-        way = target - self._state[axis_base(axis) + layout.REFERENCE]
-        b = self._begin(axis, layout.MODE_POSITION, float((way > 0) - (way < 0)))
-        self._state[b + layout.TARGET] = float(target)
+        way = target - self._parts[axis][layout.REFERENCE]
+        part = self._begin(axis, layout.MODE_POSITION, float((way > 0) - (way < 0)))
+        part[layout.TARGET] = float(target)
 
     def begin_jog(self, axis: int) -> None:
         """Starts a jog at the jog speed, which may change at any time."""
@@ -53,10 +53,10 @@ class Moves(Readings):
         self._begin(axis, layout.MODE_JOG, -1.0 if speed < 0.0 else 1.0)
 
     def _begin_stage(self, axis: int, stage: int, direction: float, speed: float) -> None:
-        b = self._begin(axis, layout.MODE_JOG, direction)
-        self._state[b + layout.STAGE] = stage
-        self._state[b + layout.STAGE_LEVEL] = self._state[b + layout.HOME_LEVEL]
-        self._state[b + layout.SLEW_V] = speed * direction
+        part = self._begin(axis, layout.MODE_JOG, direction)
+        part[layout.STAGE] = stage
+        part[layout.STAGE_LEVEL] = part[layout.HOME_LEVEL]
+        part[layout.SLEW_V] = speed * direction
 
     def begin_edge(self, axis: int, home: bool) -> None:
         """FE: with `home` (the `_HM` value) 1 in reverse, else forward, until the home input changes."""

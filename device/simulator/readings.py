@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from device.simulator.kernel import inputs, layout
-from device.simulator.kernel.layout import State, axis_base
+from device.simulator.kernel.layout import State
 
 
 def wrapped(value: float) -> int:
@@ -21,10 +21,10 @@ class Readings:
     axes: int
 
     def _read(self, axis: int, slot: int) -> float:
-        return self._state[axis_base(axis) + slot]
+        return self._parts[axis][slot]
 
     def _flag(self, axis: int, slot: int) -> bool:
-        return self._state[axis_base(axis) + slot] != 0.0
+        return self._parts[axis][slot] != 0.0
 
     def position(self, axis: int) -> int:
         """TP: main encoder, counts."""
@@ -32,7 +32,7 @@ class Readings:
 
     def reference(self, axis: int) -> int:
         """RP: commanded position, counts (behind the IT filter)."""
-        return wrapped(self._read(axis, layout.REFERENCE))
+        return wrapped(self._parts[axis][layout.REFERENCE])
 
     def target(self, axis: int) -> int:
         """Where a running PA or PR move ends; RP of any other axis."""
@@ -68,7 +68,7 @@ class Readings:
 
     def moving(self, axis: int) -> bool:
         """The profile runs (the IT filter's tail included)."""
-        return self._flag(axis, layout.MOVING)
+        return self._parts[axis][layout.MOVING] != 0.0
 
     def jogging(self, axis: int) -> bool:
         """In a jog that has not been stopped."""

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from enum import Enum, auto
+from collections.abc import Callable, Sequence
+from enum import IntEnum, auto
 
-from device.simulator.kernel import layout
+from device.simulator.kernel import events, layout
 from device.simulator.kernel.layout import EQUAL, NEVER, NOT_LESS, NOT_MORE, State, axis_base
 
 Condition = tuple[int, int, float]  # slot, operator, value
 NOTHING: Condition = (layout.AXES, NEVER, 0.0)
 
 
-class Watch(Enum):
+class Watch(IntEnum):
     """Kinds of watch, with the command that waits so."""
 
     AFTER_MOVE = auto()  # AM
@@ -77,30 +77,50 @@ CONDITIONS: dict[Watch, Callable[[State, int, float], Pair]] = {
 }
 
 
-def arm(state: State, kind: Watch, axis: int, wanted: float) -> int:
-    """Puts the conditions in a free place of the table and returns its number."""
-    pair = CONDITIONS[kind](state, axis_base(axis), wanted)
-    for number in range(layout.MAXIMUM_WATCHES):
+Wanted = tuple[Watch, int, float]  # kind, axis, value
+
+
+def arm(state: State, wanted: Sequence[Wanted]) -> list[int]:
+    """Puts watches in free places of the table; they trip when the last of them does. Answers their numbers."""
+    numbers = free_places(state, len(wanted))
+    first = layout.WATCH + layout.WATCH_STRIDE * numbers[0]
+    for number, (kind, axis, value) in zip(numbers, wanted, strict=True):
         place = layout.WATCH + layout.WATCH_STRIDE * number
-        if state[place + layout.W_STATE] == 0.0:
-            for offset, value in enumerate((1.0, *pair[0], *pair[1], kind.value, axis, wanted)):
-                state[place + offset] = value
-            state[layout.WATCHES] = max(state[layout.WATCHES], number + 1.0)
-            return number
+        one, other = CONDITIONS[kind](state, axis_base(axis), value)
+        state[place + layout.W_STATE] = 1.0
+        state[place + layout.W_SLOT], state[place + layout.W_OPERATOR], state[place + layout.W_VALUE] = one
+        state[place + layout.W_SLOT_2], state[place + layout.W_OPERATOR_2], state[place + layout.W_VALUE_2] = other
+        state[place + layout.W_KIND], state[place + layout.W_AXIS], state[place + layout.W_NUMBER] = kind, axis, value
+        state[place + layout.W_FIRST], state[place + layout.W_LEFT] = first, 0.0
+    state[first + layout.W_LEFT] = len(numbers)
+    state[layout.WATCHES] = max(state[layout.WATCHES], numbers[-1] + 1.0)
+    for number in numbers:
+        events.test_watch(state, layout.WATCH + layout.WATCH_STRIDE * number)
+    return numbers
+
+
+def free_places(state: State, count: int) -> list[int]:
+    """Numbers of the first free places."""
+    found = []
+    for number in range(layout.MAXIMUM_WATCHES):
+        if state[layout.WATCH + layout.WATCH_STRIDE * number + layout.W_STATE] == 0.0:
+            found.append(number)
+            if len(found) == count:
+                return found
     raise RuntimeError("all watches are in use")
 
 
 def mark_place(state: State, place: int) -> None:
     """After AD or AR the next AR counts from where this one tripped; AV likewise along the path."""
-    kind, b = Watch(int(state[place + layout.W_KIND])), axis_base(int(state[place + layout.W_AXIS]))
-    wanted = state[place + layout.W_NUMBER]
+    kind, wanted = state[place + layout.W_KIND], state[place + layout.W_NUMBER]
     if kind in (Watch.AFTER_DISTANCE, Watch.AFTER_RELATIVE):
-        origin = layout.START if kind is Watch.AFTER_DISTANCE else layout.MARK
+        b = axis_base(int(state[place + layout.W_AXIS]))
+        origin = layout.START if kind == Watch.AFTER_DISTANCE else layout.MARK
         way = state[b + layout.POSITION] - state[b + origin]
         reached = math.copysign(min(abs(wanted), abs(way)), way)
         state[b + layout.MARK] = state[b + origin] + reached
         state[b + layout.MARK_DISTANCE] = abs(state[b + layout.POSITION] - state[b + layout.MARK])
-    elif kind is Watch.PATH_DISTANCE:
+    elif kind == Watch.PATH_DISTANCE:
         state[layout.PATH_MARK] = min(state[layout.PATH_TRAVELLED], state[layout.PATH_MARK] + wanted)
 
 

@@ -24,6 +24,8 @@ from device.simulator.kernel.layout import (
     STEPPER,
     STEPS,
     TRIPS,
+    W_FIRST,
+    W_LEFT,
     W_OPERATOR,
     W_OPERATOR_2,
     W_SLOT,
@@ -68,12 +70,15 @@ def holds(value: float, operator: float, wanted: float) -> bool:
 
 
 def test_watch(S: State, place: int) -> None:
-    """Marks an armed watch one of whose conditions holds."""
+    """Marks an armed watch one of whose conditions holds; it trips with the last of its group."""
     if holds(S[int(S[place + W_SLOT])], S[place + W_OPERATOR], S[place + W_VALUE]) or holds(
         S[int(S[place + W_SLOT_2])], S[place + W_OPERATOR_2], S[place + W_VALUE_2]
     ):
         S[place + W_STATE] = 2.0
-        S[TRIPS] += 1.0
+        first = int(S[place + W_FIRST])
+        S[first + W_LEFT] -= 1.0
+        if S[first + W_LEFT] == 0.0:
+            S[TRIPS] += 1.0
 
 
 def test_watches(S: State) -> None:

@@ -86,10 +86,11 @@ GUARDS, GUARD_BROKEN = range(44, 46)  # guards to look at; 1: one has been left 
 
 # --- watches: armed (0 free, 1 armed, 2 tripped), then two conditions (slot, operator, value), either trips ---
 WATCH = 80
-WATCH_STRIDE = 10
+WATCH_STRIDE = 12
 MAXIMUM_WATCHES = 64
 W_STATE, W_SLOT, W_OPERATOR, W_VALUE, W_SLOT_2, W_OPERATOR_2, W_VALUE_2 = range(7)
 W_KIND, W_AXIS, W_NUMBER = range(7, 10)  # as the host asked for it
+W_FIRST, W_LEFT = range(10, 12)  # the first of those that must all trip; how many of them have not (in the first only)
 NOT_LESS, NOT_MORE, EQUAL, NEVER = range(4)
 
 # --- guards: the loop ends after the sample in which a slot has left its range (slot, lowest, highest) ---

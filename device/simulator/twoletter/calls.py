@@ -250,7 +250,8 @@ def check_moving(unit: Unit, call: Call) -> None:
         return
     motion = unit.motion
     if row.takes in PER_AXIS:
-        axes: Sequence[int] = [axis for axis, value in enumerate(call.values) if value is not None]
+        places = call.values[: len(unit.model.axes)]  # EM of a DMC-141x has a second place that is no axis
+        axes: Sequence[int] = [axis for axis, value in enumerate(places) if value is not None]
     elif row.takes in LETTERS:
         axes = call.axes
     else:

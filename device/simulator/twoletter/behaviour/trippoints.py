@@ -48,7 +48,7 @@ def _by_number(name: str, kind: Watch) -> Waits:
 
 def _watch(unit: Unit, name: str, wanted: list[tuple[Watch, int, float]]) -> Wait | None:
     motion = unit.motion
-    watches = tuple(motion.watch(kind, axis, value) for kind, axis, value in wanted)
+    watches = motion.watch_all(wanted)
     wait = Wait(name, watches=watches, axes=tuple(axis for _, axis, _ in wanted))
     if all(motion.tripped(watch) for watch in watches):
         unit.drop(wait)

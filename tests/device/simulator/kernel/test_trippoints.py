@@ -236,3 +236,28 @@ def test_an_error_switches_off_before_the_plant_moves() -> None:
     assert motion.run(10) == 1
     assert motion.velocity_now(0) == 0.0
     assert set(motion.take_events()) == {(Event.ERROR, 0), (Event.SWITCHED_OFF, 0)}
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_watches_of_a_group_trip_with_the_last_of_them(compiled: bool) -> None:
+    motion = Motion(3, compiled=compiled)
+    for axis, way in enumerate((300, 900, 600)):
+        motion.begin_position(axis, way)
+    ends = []
+    for axis in range(3):  # each by itself: one return a trip
+        motion.watch(Watch.AFTER_MOVE, axis)
+    group = motion.watch_all([(Watch.AFTER_MOVE, axis, 0.0) for axis in range(3)])
+    while not all(motion.tripped(number) for number in group):
+        motion.run(10_000)
+        ends.append(motion.sample)
+    assert len(ends) == 3  # the group's last comes with the longest move
+    again = Motion(3, compiled=compiled)
+    for axis, way in enumerate((300, 900, 600)):
+        again.begin_position(axis, way)
+    group = again.watch_all([(Watch.AFTER_MOVE, axis, 0.0) for axis in range(3)])
+    again.run(10_000)
+    assert again.sample == ends[-1]
+    for number in group:
+        again.drop(number)
+    assert again.watch_all([(Watch.AFTER_MOVE, axis, 0.0) for axis in range(3)])
+    assert not again.quiet()  # all of them hold at once: the caller sees it without a run
