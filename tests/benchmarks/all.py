@@ -7,13 +7,25 @@ from collections.abc import Callable, Iterator
 from tests.benchmarks.editing import many_edits, rename, rescale
 from tests.benchmarks.figure import Figure
 from tests.benchmarks.line import download_shares
-from tests.benchmarks.simulator import four_axes_of_moves, served_idle, tight_loop
+from tests.benchmarks.simulator import (
+    arcs_with_gearing,
+    four_axes_of_moves,
+    moves_beside_busy_threads,
+    served_idle,
+    served_with_axes_and_threads,
+    tight_loop,
+    waiting_loops,
+)
 from tests.benchmarks.start import start_figures
 
 SINGLE: tuple[Callable[[], Figure], ...] = (
     four_axes_of_moves,
+    arcs_with_gearing,
+    waiting_loops,
+    moves_beside_busy_threads,
     tight_loop,
     served_idle,
+    served_with_axes_and_threads,
     many_edits,
     rename,
     rescale,

@@ -17,7 +17,7 @@ from tests.benchmarks.figure import Figure
 from tests.long import is_long, record
 
 COMMAND = "python -m tests.benchmarks"
-NEEDS_LINUX = ("served_idle", "download_shares")
+NEEDS_LINUX = ("served_idle", "served_with_axes_and_threads", "download_shares")
 SLACK = 2.0
 
 
