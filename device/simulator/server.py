@@ -124,7 +124,8 @@ class Server:
     def _send(self) -> None:
         for port, line in self.lines.items():
             uart = self.simulation.line(port)
-            taken = line.write(self.simulation.transmit(port))
+            data = self.simulation.transmit(port)
+            taken = line.write(data if uart.host_ready or uart.handshake else b"")  # else nobody is there to take it
             if taken != uart.host_ready:
                 uart.set_host_ready(taken, self.simulation.ticks)
 

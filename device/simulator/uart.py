@@ -62,6 +62,11 @@ class Uart:
         self._start_outgoing(now)
 
     @property
+    def may_send(self) -> bool:
+        """False while the host's RTS inhibits sending; without handshake nobody looks at it."""
+        return self.host_ready or not self.handshake
+
+    @property
     def clear_to_send(self) -> bool:
         """False while the controller asks the host to wait."""
         return not self.handshake or len(self.buffer) < self.receive_size - HOLD_MARGIN
@@ -170,7 +175,7 @@ class Uart:
         self._start_outgoing(now)
 
     def _start_outgoing(self, now: int) -> None:
-        if self.outgoing_end is None and self.output and self.host_ready and not self.stopped:
+        if self.outgoing_end is None and self.output and self.may_send and not self.stopped:
             self.outgoing_end = max(now * (self.baud or 1), self.output_free) + self._character()
 
     def _complete_outgoing(self) -> None:
@@ -178,5 +183,5 @@ class Uart:
         self.output_free = self.outgoing_end
         self.sent.append(self.output.popleft())
         self.outgoing_end = None
-        if self.output and self.host_ready and not self.stopped:
+        if self.output and self.may_send and not self.stopped:
             self.outgoing_end = self.output_free + self._character()

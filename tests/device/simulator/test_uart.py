@@ -134,3 +134,11 @@ def test_a_host_that_is_held_by_xoff_loses_nothing() -> None:
             found += taken(uart, now)
     assert bytes(found) == data
     assert uart.overruns == 0
+
+
+def test_without_handshake_characters_leave_whether_the_host_is_ready_or_not() -> None:
+    uart = Uart(handshake=False)
+    uart.set_host_ready(False, 0)
+    uart.send(b"abc", 0)
+    uart.run(SECOND)
+    assert uart.transmit() == b"abc"

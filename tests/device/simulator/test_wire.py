@@ -180,3 +180,31 @@ def test_characters_of_a_command_interrupt_too(field: int, calls: int) -> None:
     for character in "TC1\r":
         bench.type(character, ms=10)
     assert bench.simulation.unit.state.variables["N"] // 65536 == calls
+
+
+@pytest.mark.parametrize("handshake", [0, 1])
+def test_port_2_holds_the_program_only_with_handshake(handshake: int) -> None:
+    # CC m,n: n=1 handshake (dmc-1412-1414.txt l.1291); a full FIFO of 128 characters stops the program (l.1333)
+    bench = Bench("dmc1412")
+    bench.type(f"CC 9600,{handshake},0,0\r")
+    bench.load('#A\nN=0\n#B\nMG{P2}"123456789012345678"\nN=N+1\nJP#B,N<50\nEN')
+    bench.simulation.uarts[1].set_host_ready(False, bench.simulation.ticks)
+    bench.simulation.execute("#A")
+    bench.wait(2000)
+    count = bench.simulation.unit.state.variables["N"] // 65536
+    assert count in (6, 7) if handshake else count == 50  # 20 characters each
+    assert bench.simulation.unit.running() is bool(handshake)
+    bench.simulation.uarts[1].set_host_ready(True, bench.simulation.ticks)
+    bench.wait(2000)
+    assert bench.simulation.transmit(2).count(b"8\r\n") == 50
+
+
+def test_a_trace_slows_the_program_by_the_line() -> None:
+    # l.2672: every line of the trace waits for room; 300 baud carries 30 characters a second
+    bench = Bench(baud=300)
+    bench.load("#A\nN=N+1\nJP#A")
+    bench.type("N=0;TR1\r", ms=1000)
+    bench.simulation.execute("#A")
+    bench.wait(20_000)
+    characters = len("001 N=N+1\r\n") + len("002 JP#A\r\n") + len("000 #A\r\n")
+    assert bench.simulation.unit.state.variables["N"] / 65536 == pytest.approx((20 * 30 + 128) / characters, rel=0.15)
