@@ -18,8 +18,9 @@
     unasked CODE LINE        column 3: there is no such question
     reads VALUE OPERAND      column 4: the operand reads that (VALUE may be a range LOW..HIGH)
     unread OPERAND           column 4: there is no such operand (error 58)
-    axes V1 V2 V3 V4         columns 1 to 4 of `x,y,z,w` commands: stored, asked and read by axis; 90 for one too many
-    letters                  columns 1 and 2 of commands with axis letters: each letter, 90 for one too many
+    axes V1 V2 V3 V4         columns 1 to 4 of `x,y,z,w` commands: stored, asked and read by axis, by letter (`KPX=`);
+                             an empty place keeps its value, one too many is 90
+    letters                  columns 1 and 2 of commands with axis letters: each letter (A to D too); one too many is 90
     does WHAT                column 5: does what the manual says; steps of `tests/examples/script.py`, indented, follow
     # …                      comment
 """
@@ -294,11 +295,18 @@ class Prober(Player):
             self.must(self.value_of(f"_{name}{letter}") == float(value), f"_{name}{letter} is not {value}")
         if count < len(LETTERS):
             self.do_refused(f"90 {name} {',' * count}{given[0]}")
+        last = self.axes[-1]
+        self.do_port(f"{name}{last}={given[0]}")
+        self.must(self.value_of(f"_{name}{last}") == float(given[0]), f"{name}{last}= does not store")
+        if count > 1:  # an empty place keeps its value
+            self.do_port(f"{name} ,{given[1]}")
+            self.must(self.value_of(f"_{name}X") == float(given[0]), f"{name} , changes the first axis")
 
     def do_letters(self, rest: str) -> None:
         """Axis letters: each is known, one too many is error 90."""
         name = self.entry.name
-        for letter in self.axes:
+        for letter, other in zip(self.axes, "ABCD", strict=False):
             self.do_port(f"{name}{letter}")
+            self.do_port(f"{name} {other}")
         if len(self.axes) < len(LETTERS):
             self.do_refused(f"90 {name}{LETTERS[len(self.axes)]}")
