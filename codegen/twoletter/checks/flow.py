@@ -8,29 +8,9 @@ from itertools import pairwise
 from codegen.twoletter.checks.rules import RULES
 from codegen.twoletter.evaluate import constant
 from codegen.twoletter.facts import Facts
-from codegen.twoletter.nodes import EXPRESSIONS, Command, Label, Statement, Target
+from codegen.twoletter.graph import RETURNS, ROUTINES, ends, graph
+from codegen.twoletter.nodes import EXPRESSIONS, Command, Label, Target
 from codegen.twoletter.problems import Problem
-
-RETURNS = ("EN", "RE", "RI")
-# The automatic routines and the command each ends with (dmc-1412-1414.txt l.2950-3091).
-ROUTINES = {
-    "AUTO": "EN",
-    "LIMSWI": "RE",
-    "POSERR": "RE",
-    "ININT": "RI",
-    "MCTIME": "EN",
-    "CMDERR": "EN",
-    "COMINT": "EN",
-}
-
-
-def ends(statement: Statement) -> bool:
-    """Whether the program never goes on behind this statement."""
-    if not isinstance(statement, Command):
-        return False
-    if statement.name == "HX":
-        return not statement.arguments  # halts every thread
-    return statement.name in RETURNS or (statement.name == "JP" and len(statement.arguments) == 1)
 
 
 def _targets(facts: Facts) -> Iterator[tuple[int, Command, Target]]:
@@ -100,43 +80,17 @@ def bare_stop(facts: Facts) -> Iterator[Problem]:
                 yield RULES["bare-stop"].problem(placed.line, statement.span.start, statement.span.end)
 
 
-def _reached(facts: Facts, start: int, calls: bool, stop: tuple[str, ...] = ()) -> Iterator[int]:
-    """Numbers of the statements that can be reached from one; `calls` follows JS, `stop` ends a path."""
-    waiting, seen = [start], set[int]()
-    while waiting:
-        number = waiting.pop()
-        if number in seen or number >= len(facts.statements):
-            continue
-        seen.add(number)
-        yield number
-        statement = facts.statements[number].statement
-        if isinstance(statement, Command):
-            if statement.name in stop:
-                continue
-            waiting += _jump(facts, statement, calls)
-        if not ends(statement):
-            waiting.append(number + 1)
-
-
-def _jump(facts: Facts, command: Command, calls: bool) -> list[int]:
-    """Where a JP (or JS) may go."""
-    if command.name == "JP" or (calls and command.name == "JS"):
-        target = command.arguments[0]
-        if isinstance(target, Target) and target.label in facts.at_label:
-            return [facts.at_label[target.label]]
-    return []
-
-
 def input_threads(facts: Facts) -> Iterator[Problem]:
     """IN in what XQ starts in a thread other than 0."""
     told: set[int] = set()
+    ways = graph(facts)
     for line, command, target in _targets(facts):
         if command.name != "XQ" or len(command.arguments) < 2 or target.label not in facts.at_label:
             continue
         thread = _thread(command)
         if not thread:
             continue
-        for number in _reached(facts, facts.at_label[target.label], calls=True):
+        for number in ways.reached(facts.at_label[target.label], calls=True):
             placed = facts.statements[number]
             statement = placed.statement
             if isinstance(statement, Command) and statement.name == "IN" and number not in told:
@@ -155,10 +109,11 @@ def _thread(command: Command) -> int:
 
 def wrong_returns(facts: Facts) -> Iterator[Problem]:
     """Automatic routines that end with the wrong command; behind ZS nothing is asked."""
+    ways = graph(facts)
     for name, wanted in ROUTINES.items():
         if name not in facts.at_label:
             continue
-        for number in _reached(facts, facts.at_label[name], calls=False, stop=("ZS",)):
+        for number in ways.reached(facts.at_label[name], stop=("ZS",)):
             placed = facts.statements[number]
             statement = placed.statement
             if isinstance(statement, Command) and statement.name in RETURNS and statement.name != wanted:

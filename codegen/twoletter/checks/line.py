@@ -37,7 +37,7 @@ def line_problems(text: str, model: Model) -> tuple[Problem, ...]:
     line = parse_line(text)
     if is_host_comment(line):
         return ()
-    problems = list(line_length(text, model))
+    problems = [*line_length(text, model), *plain_characters(text)]
     for statement in line.statements:
         problems += refused(text, statement)
         problems += known_values(statement, model)
@@ -55,6 +55,14 @@ def line_length(text: str, model: Model) -> Iterator[Problem]:
     """Characters of a stored line: 80 or 40."""
     if len(text) > model.columns:
         yield RULES["line-too-long"].problem(0, model.columns, len(text), length=len(text), limit=model.columns)
+
+
+def plain_characters(text: str) -> Iterator[Problem]:
+    """The first character that the line cannot carry."""
+    for column, letter in enumerate(text):
+        if not " " <= letter <= "~" and letter != "\t":
+            yield RULES["plain-characters"].problem(0, column, column + 1, letter=letter)
+            return
 
 
 def refused(text: str, statement: Statement) -> Iterator[Problem]:

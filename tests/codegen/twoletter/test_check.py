@@ -132,7 +132,7 @@ def test_comparisons(condition: str, warned: bool) -> None:
         ("#A\nPF 10.4;PF-8.2;VF 2.2\nEN", "ssc1", []),
         ("#A\nPF 10.5\nEN", "ssc1", ["out-of-range"]),
         ("#A\nXQ #B,2\nEN\n#B\nEN", "dmc1412", ["out-of-range"]),
-        ("#A\nLI 1,2<9000000\nEN", "ssc2", ["out-of-range"]),
+        ("#A\nLM XY\nLI 1,2<9000000\nLE\nEN", "ssc2", ["out-of-range"]),
         ("#A\nJP #A;EN", "ssc1", []),  # l.2985
         ("#A\nIF (1)\nPRA=5\nYA 5\nEN", "ssc1", ["later-command", "later-assignment", "later-command"]),
         ("#A\nACC=5;AC ACC\nEN", "ssc1", []),
@@ -149,6 +149,20 @@ def test_comparisons(condition: str, warned: bool) -> None:
         ("#A\nPR1000\nBGX\nPR5000\nEN", "dmc1412", ["still-moving"]),  # l.2711: error 7 on line 3
         ("#A\nCI ,2\nEN", "dmc1412", ["routine-missing"]),
         ("#A\nCI -1;CI 0,0,1;II 0\nEN", "dmc1412", []),
+        ("#A\nLM XY\n#B\nLI 10,10\nJP #B,@IN[1]=0\nLE;BGS;AMS\nEN", "ssc2", []),  # filled in a loop
+        ("#A\nVM XY\nJS #S\nBGS;AMS\nEN\n#S\nVP 1,1;VE\nEN", "ssc2", []),  # closed in a subroutine
+        ("#A\nLM XY;LI 1,1;LE;BGS;AMS;LI 2,2;LE;BGS\nEN", "ssc2", []),  # LM need not be repeated
+        ("#A\nLM ?\nEN", "ssc2", []),
+        ("#A\nVM XY\nVP 1,1\nVM XY\nVP 1,1;VE;BGS\nEN", "ssc2", ["sequence-open"]),
+        ("#A\nCR 100,0,90;CR 100,90,90\nEN", "ssc2", ["segment-alone"]),
+        ("#A\nJS #B\n#B\nSB 1\nEN", "ssc1", ["runs-into"]),
+        ("#A\nJP #A\n#B\nSB 1\n#LIMSWI\nRE", "ssc1", []),  # nothing comes to B
+        ("#A\nSB 1\n#LIMSWI\nRE", "ssc1", ["runs-into"]),
+        ("#A\nJS #B\nEN\n#B\nSB 1\n#C\nSB 2\nEN\n#D\nJS #C\nEN", "ssc1", []),  # two ways into one end
+        ("#A\nXQ #B,1\nSB 2\n#B\nSB 1\nEN", "ssc1", []),  # a thread, not a subroutine
+        ("#A\nII 1\n#L;JP #L\n#ININT\nZS\nJP #A", "ssc1", []),
+        ("#A\nII 1\n#L;JP #L\n#ININT\nJP #A", "ssc1", ["stack-grows"]),
+        ("#A\nJS #B\nEN\n#B\nJS #C\nEN\n#C\nJS #B,@IN[1]=0\nEN", "ssc1", ["calls-itself", "calls-itself"]),
         ("", "ssc4", []),
         ("#A\nEN", "smartmotor", []),
     ],
