@@ -191,9 +191,9 @@ class Keys(Hands):
         QApplication.processEvents()
 
     def pick(self, title: str) -> InstructionDialog:
-        QTest.keySequence(front(self.window), "Ctrl+F")
+        QTest.keySequence(front(self.window), "Ctrl+Shift+F")
         search = QApplication.focusWidget()
-        assert isinstance(search, QLineEdit), "Ctrl+F goes to the search"
+        assert isinstance(search, QLineEdit), "Ctrl+Shift+F goes to the search"
         QTest.keySequence(search, "Ctrl+A")
         QTest.keyClicks(search, title)
         QTest.keyClick(search, Qt.Key.Key_Return)

@@ -42,7 +42,11 @@ COMMANDS = (
     CommandRow("fold_all", "Fold all", "Alt+Left", "up", "Hides what subroutines and repeats hold", False),
     CommandRow("unfold_all", "Unfold all", "Alt+Right", "down", "Shows what subroutines and repeats hold", False),
     CommandRow("end_of_repeat", "End of repeat", "Ctrl+Return", "loop", "New steps go behind the repeat again"),
-    CommandRow("find", "Find instruction", "Ctrl+F", "search", "Searches the instructions", False),
+    CommandRow("find_text", "Find…", "Ctrl+F", "search", "Finds words in the English and the code", False),
+    CommandRow("replace_text", "Replace…", "Ctrl+H", "", "Replaces names, numbers and notes you typed", False),
+    CommandRow("find_next", "Find next", "F3", "", "The next step that holds what was searched", False),
+    CommandRow("find_previous", "Find previous", "Shift+F3", "", "The step before that holds it", False),
+    CommandRow("find", "Find instruction", "Ctrl+Shift+F", "search", "Searches the instructions", False),
     CommandRow("mode_program", "Program", "Ctrl+1", "program", "Plain English beside its code", False),
     CommandRow("mode_both", "Both", "Ctrl+2", "both", "Plain English and the whole code side by side", False),
     CommandRow("mode_code", "Code", "Ctrl+3", "code", "Only the two-letter code", False),
@@ -53,7 +57,9 @@ def make_actions(owner: QWidget) -> dict[str, QAction]:
     """An action for each row; it calls the method of that name."""
     actions = {}
     for row in COMMANDS:
-        action = QAction(icon(row.picture), row.text, owner)
+        action = QAction(row.text, owner)
+        if row.picture:
+            action.setIcon(icon(row.picture))
         action.setShortcut(QKeySequence(row.keys))
         action.setToolTip(f"{row.help} ({row.keys})")
         action.setStatusTip(row.help)

@@ -48,7 +48,7 @@ class Palette(QWidget):
         super().__init__(parent)
         self.setAccessibleName(self.title)
         self.search = QLineEdit()
-        self.search.setPlaceholderText("Search (Ctrl+F)")
+        self.search.setPlaceholderText("Search (Ctrl+Shift+F)")
         self.search.setClearButtonEnabled(True)
         self.search.setMinimumHeight(look().control)
         self.search.setAccessibleName("Search instructions")

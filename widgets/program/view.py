@@ -21,6 +21,8 @@ from widgets.program.code_popup import CodePopup
 from widgets.program.commands import COMMANDS, make_actions
 from widgets.program.delegate import ProgramDelegate
 from widgets.program.dialogs import Dialogs
+from widgets.program.find_bar import FindBar
+from widgets.program.finding import Finding
 from widgets.program.header import Header
 from widgets.program.insertion_bar import InsertionBar
 from widgets.program.model import ProgramModel
@@ -37,6 +39,10 @@ if TYPE_CHECKING:
 MODES = ("program", "both", "code")
 NEEDS_STEP = frozenset(
     {"modify", "comment_out", "view_code", "cut", "copy", "delete", "duplicate", "move_up", "move_down"}
+)
+
+EVERYWHERE = frozenset(
+    {"undo", "redo", "find", "find_text", "replace_text", "find_next", "find_previous"} | {f"mode_{m}" for m in MODES}
 )
 
 
@@ -64,6 +70,8 @@ class ProgramView(QWidget):
         self.problems = ProblemsPanel()
         self.inspector = Inspector(offers_of(session.document))
         self.dialogs = Dialogs(self, session)
+        self.find_bar = FindBar()
+        self.finding = Finding(session, self.words, self.tree, self.delegate, self.find_bar)
         self.arranging = Arranging(session, self.model, self.tree)
         self.mode = "program"
         self.running: Listing | None = None
@@ -93,6 +101,7 @@ class ProgramView(QWidget):
             self.dialogs.show_offers(offers_of(new))
         if old is None or old.setup != new.setup:
             self.instructions.show_setup(new.working_setup)
+        self.finding.follow()
         self._show_selection(scroll=False)
         self._show_insertion()
 
@@ -288,6 +297,18 @@ class ProgramView(QWidget):
         else:
             self.session.leave_body()
 
+    def find_text(self) -> None:
+        self.finding.open(replacing=False)
+
+    def replace_text(self) -> None:
+        self.finding.open(replacing=True)
+
+    def find_next(self) -> None:
+        self.finding.go(1)
+
+    def find_previous(self) -> None:
+        self.finding.go(-1)
+
     def find(self) -> None:
         self.instructions.focus_search()
 
@@ -388,6 +409,7 @@ class ProgramView(QWidget):
         self.model.copy_text = session.copy
         self.model.folded.connect(self._folded)
         self.arranging.said.connect(self.said)
+        self.finding.said.connect(self.said)
         self.arranging.new_wanted.connect(lambda kind, place: self.dialogs.add(kind, place=place))
         tree.modify_wanted.connect(self.dialogs.modify)
         tree.chosen_changed.connect(self._selection_changed)
@@ -408,7 +430,7 @@ class ProgramView(QWidget):
     def _lay_out(self) -> None:
         self.tree.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         for name, action in self.commands.items():
-            everywhere = name in ("undo", "redo", "find", "mode_program", "mode_both", "mode_code")
+            everywhere = name in EVERYWHERE
             context = Qt.ShortcutContext
             action.setShortcutContext(context.WindowShortcut if everywhere else context.WidgetShortcut)
             (self if everywhere else self.tree).addAction(action)
@@ -421,7 +443,7 @@ class ProgramView(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 8, 8, 8)
         column.setSpacing(8)
-        for widget in (self.header, self.bar, self.splitter):
+        for widget in (self.header, self.find_bar, self.bar, self.splitter):
             column.addWidget(widget)
         column.setStretchFactor(self.splitter, 1)
         self.setAccessibleDescription(f"Sections {', '.join(TITLES[section.value] for section in Section)}")
