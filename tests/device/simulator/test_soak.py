@@ -53,6 +53,7 @@ def test_other_controllers(name: str) -> None:
     soak = Soak(seed=2, name=name)
     while soak.seconds < count(60, 3600):
         soak.episode()
+    assert soak.answers == soak.episodes > 1
 
 
 def test_the_same_soak_is_the_same() -> None:
