@@ -128,10 +128,10 @@ def outside(bench: Bench, chance: random.Random) -> None:
         simulation.stimulus("type2", "7\r")
 
 
-def play(seed: int, *, leaping: bool, sliced: bool = False) -> tuple[list[Any], int]:
+def play(seed: int, *, leaping: bool, sliced: bool = False, compiled: bool | None = None) -> tuple[list[Any], int]:
     """A random program in a random world; what is to be seen of it now and then, and how much was left out."""
     chance = random.Random(seed)
-    bench = Bench("ssc3", PLANTS, baud=chance.choice((None, 19200)))
+    bench = Bench("ssc3", PLANTS, baud=chance.choice((None, 19200)), compiled=compiled)
     simulation = bench.simulation
     simulation.interpreter.idling.allowed = leaping
     simulation.motion.trace(4000)
@@ -159,6 +159,13 @@ def test_leaving_out_changes_nothing(block: int) -> None:
         if seed % 5 == 0:
             assert leaping == play(seed, leaping=True, sliced=True)[0], f"seed {seed}, sliced"
     assert left_out > 100 * each  # else the comparison would say nothing
+
+
+@pytest.mark.parametrize("block", range(2))
+def test_the_compiled_and_the_plain_loop_run_programs_alike(block: int) -> None:
+    each = count(6, 400)
+    for seed in range(50_000 + block * each, 50_000 + (block + 1) * each):
+        assert play(seed, leaping=True, compiled=True) == play(seed, leaping=True, compiled=False), f"seed {seed}"
 
 
 FOREVER = 400_000  # commands of the runs below
