@@ -13,7 +13,7 @@ REVISION = b"\x12\x16"
 LEAVE = b"\x11\x1b\x5c"  # leaves editor, data mode and download; nothing in command mode
 MASTER_RESET = b"\x12\x13"
 
-TELLS = frozenset(["TP", "RP", "TD", "TE", "TV", "TT", "TS", "TB", "TI", "SC", "RL"])  # never TC: reading it clears it
+TELLS = frozenset(name for name, row in COMMANDS.items() if row.tells) - {"TC"}  # reading TC clears it
 LISTS = frozenset(["LS", "LL", "LV", "LA", "UL", "QU"])
 CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # reading a string or number clears its status
 

@@ -11,7 +11,10 @@ from device.wire import Shape
 
 @dataclass(frozen=True, slots=True)
 class Live:
-    """One live value; `expression` has `{axis}` where it is one per axis."""
+    """One live value; `expression` has `{axis}` where it is one per axis.
+
+    `quick` ones are read in every round, `slow` ones once a second, the others in turn.
+    """
 
     name: str
     label: str
@@ -21,6 +24,7 @@ class Live:
     decimals: int = 0
     per_axis: bool = True
     slow: bool = False
+    quick: bool = False
 
     @property
     def shape(self) -> Shape:
@@ -28,7 +32,7 @@ class Live:
 
 
 ROWS: tuple[Live, ...] = (
-    Live("position", "Position", "position", "_TP{axis}"),
+    Live("position", "Position", "position", "_TP{axis}", quick=True),
     Live("commanded", "Commanded position", "position", "_RP{axis}"),
     Live("error", "Position error", "position", "_TE{axis}"),
     Live("velocity", "Velocity", "speed", "_TV{axis}", 8),
@@ -37,17 +41,17 @@ ROWS: tuple[Live, ...] = (
     Live("switches", "Switches", "bits", "_TS{axis}", 3),
     Live("stop_code", "Stop code", "code", "_SC{axis}", 3, slow=True),
     Live("motor_off", "Motor off", "flag", "_MO{axis}", 1, slow=True),
-    Live("moving", "Moving", "flag", "_BG{axis}", 1),
+    Live("moving", "Moving", "flag", "_BG{axis}", 1, quick=True),
     Live("forward_limit", "Forward limit", "flag", "_LF{axis}", 1),
     Live("reverse_limit", "Reverse limit", "flag", "_LR{axis}", 1),
     Live("home", "Home switch", "flag", "_HM{axis}", 1),
     Live("latch", "Latched position", "position", "_RL{axis}", slow=True),
-    Live("inputs", "Inputs", "bits", "_TI", 3, per_axis=False),
+    Live("inputs", "Inputs", "bits", "_TI", 3, per_axis=False, quick=True),
     Live("outputs", "Outputs", "bits", "_OP", 5, per_axis=False),
     Live("status", "Status byte", "bits", "_TB", 3, per_axis=False),
     Live("time", "Controller clock", "time", "TIME", 10, per_axis=False),
     Live("error_code", "Error code", "code", "_TC", 3, per_axis=False, slow=True),
-    *(Live(f"thread{n}", f"Line of thread {n}", "line", f"_XQ{n}", 4, per_axis=False) for n in range(4)),
+    *(Live(f"thread{n}", f"Line of thread {n}", "line", f"_XQ{n}", 4, per_axis=False, quick=n == 0) for n in range(4)),
     *(Live(f"analog{n}", f"Analog input {n}", "voltage", f"@AN[{n}]", 2, 4, per_axis=False) for n in range(1, 9)),
 )
 LIVE: dict[str, Live] = {row.name: row for row in ROWS}

@@ -55,7 +55,8 @@ class Poller:
         self._suspended, self._read = suspended, read
         self._wanted: dict[str, tuple[str, ...]] = {}
         self._refused: Counter[str] = Counter()
-        self._slow_due = 0.0
+        self._asked: dict[str, float] = {}  # when each value was asked for
+        self._always_due = 0.0
         self._cycles: deque[float] = deque(maxlen=8)
 
     def watch(self, owner: str, keys: Iterable[str]) -> None:
@@ -78,27 +79,36 @@ class Poller:
         """The task: cycles of requests, each followed by the rest it owes the line."""
         while True:
             start = self._clock()
-            keys = self._due(start)
-            if not keys or self._suspended():
+            lines = [] if self._suspended() else self._due(start)
+            if not lines:
                 yield from self._rest(0.05)
                 if self._suspended():
                     self.rate_hz = 0.0
                 continue
-            for request in requests(keys, self.columns):
+            for request in lines:
                 if self._suspended():
                     break
                 yield from self._one(request)
             self._measure(start)
 
-    def _due(self, now: float) -> tuple[str, ...]:
-        """Fast values in every cycle, slow ones and the threads once a second."""
+    def _due(self, now: float) -> list[Request]:
+        """This round: the quick values, filled up with others in turn, and one line of others more.
+
+        Once a second the threads and the clock, together, because they tell whether something may ask.
+        """
         wanted = self.wanted()
-        always = tuple(key for key in ALWAYS if key in self.ring.columns)
-        slow = now >= self._slow_due
-        if slow:
-            self._slow_due = now + SLOW_S
-        chosen = {key for key in wanted if slow or not live.split(key)[0].slow} | (set(always) if slow else set())
-        return tuple(key for key in self.ring.columns if key in chosen)
+        quick = tuple(key for key in wanted if live.split(key)[0].quick)
+        others = [key for key in wanted if key not in quick and self._is_due(key, now)]
+        others.sort(key=lambda key: self._asked.get(key, 0.0))
+        lines = requests((*quick, *others), self.columns)[: len(requests(quick, self.columns)) + 1]
+        self._asked.update({key: now for line in lines for key, _, _ in line})
+        if now >= self._always_due:
+            self._always_due = now + SLOW_S
+            lines += requests(tuple(key for key in ALWAYS if key in self.ring.columns), self.columns)
+        return lines
+
+    def _is_due(self, key: str, now: float) -> bool:
+        return not live.split(key)[0].slow or now - self._asked.get(key, -SLOW_S) >= SLOW_S
 
     def _one(self, request: Request) -> PollSteps:
         nonce = next(self._nonces)
@@ -140,7 +150,8 @@ class Poller:
             return
 
     def _measure(self, start: float) -> None:
+        """How often the quick ones come, and how long it takes until all have been read."""
         self._cycles.append(max(self._clock() - start, 1e-6))
         period = sum(self._cycles) / len(self._cycles)
         self.rate_hz = 1.0 / period
-        self.ring.period_s = period
+        self.ring.period_s, self.ring.turn_s = period, period * len(requests(self.wanted(), self.columns)) / 2

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from device.live import LIVE
+
 if TYPE_CHECKING:  # numpy loads with the first value of a controller, not with the first window
     import numpy as np
     from numpy.typing import NDArray
@@ -20,7 +22,8 @@ class Row:
     columns: Mapping[str, int]
     values: Sequence[float] | NDArray[np.float64]
     times: Sequence[float] | NDArray[np.float64]
-    period_s: float = 0.0
+    period_s: float = 0.0  # between two readings of the quick values
+    turn_s: float = 0.0  # until all others have had their turn
 
     def value(self, key: str) -> float:
         """The value, or NaN when it is not polled or unknown here."""
@@ -34,8 +37,9 @@ class Row:
 
     def stale(self, key: str, now: float) -> bool:
         """Whether the value is older than it should be (also when there is none)."""
-        age = now - self.time(key)
-        return not age <= 3 * self.period_s + STALE_S
+        age, row = now - self.time(key), LIVE.get(key.partition(".")[0])
+        period = self.period_s if row is not None and row.quick else max(self.period_s, self.turn_s)
+        return not age <= 3 * period + STALE_S + (row is not None and row.slow)
 
     def has(self, key: str) -> bool:
         return self.value(key) == self.value(key)
@@ -50,7 +54,7 @@ class Ring:
 
     def __init__(self, columns: Sequence[str], size: int = 20_000) -> None:
         self.columns = tuple(columns)
-        self.period_s = 0.0
+        self.period_s = self.turn_s = 0.0
         self._places = {name: place for place, name in enumerate(self.columns)}
         self._size = size
         self._count = 0
@@ -93,7 +97,7 @@ class Ring:
             unread = (UNREAD,) * len(self.columns)
             return Row(self._places, unread, unread)
         place = (self._count - 1) % self._size
-        return Row(self._places, self._values[place].copy(), self._times[place].copy(), self.period_s)
+        return Row(self._places, self._values[place].copy(), self._times[place].copy(), self.period_s, self.turn_s)
 
     def tail(self, count: int) -> NDArray[np.float64]:
         """The newest rows, oldest first."""

@@ -73,6 +73,27 @@ def test_closing_a_panel_lowers_traffic_and_its_values_become_unknown() -> None:
     assert controller.rate_hz > 0
 
 
+def test_where_things_move_is_read_more_often_than_what_rarely_changes() -> None:
+    """With everything watched: position and moving in every round, all others within a bounded time, none forgotten."""
+    bench = Bench("ssc4").ready()
+    controller = bench.controller
+    controller.watch("all", controller.columns)
+    bench.run(15.0)
+    times: dict[str, set[float]] = {key: set() for key in controller.columns}
+    for _ in range(400):
+        bench.run(0.05)
+        row = controller.last()
+        for key in controller.columns:
+            times[key].add(row.time(key))
+            assert not row.stale(key, controller.clock()), key
+    quick = min(len(times[key]) for key in ("position.x", "position.w", "moving.x", "moving.w"))
+    often = ("position", "moving", "inputs", "thread", "time")
+    others = [len(found) for key, found in times.items() if not key.startswith(often)]
+    assert quick > 3 * max(others)
+    assert min(others) >= 4  # in 20 s
+    assert controller.rate_hz > 1.5  # 4 axes at 19 200 baud, 30 % of the line
+
+
 def test_a_program_runs_hardly_slower_while_it_is_watched() -> None:
     """Its cycle time with everything read is at most 5 % longer than without (safety.md, 3)."""
     turns: list[float] = []
