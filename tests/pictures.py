@@ -141,7 +141,7 @@ def running(stage: Stage, kind: str) -> None:
         rig = stage.connect(kind, studio.model(), program=studio.session.listing.text)
         rig.simulation.execute("#CUTTER")
     else:
-        line = LineSettings(baud=None if kind == "simulator" else 19200)
+        line = LineSettings(baud=19200)
         rig = stage.connect(kind, studio.model(), line=line)
         stage.download()
         studio.run.execute()
@@ -204,6 +204,13 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     answers: list[tuple[str, Callable[[], None]]] = [("Download and execute", lambda: None), ("Run it", lambda: None)]
     desk.ask("Which program?", "The program was changed since it was downloaded.", answers, "warning")
     yield "question", desk.question
+    rig = stage.connect("machine", "ssc1", program="#A\nJG 5000\nBG X\nAM X\nEN", answers=False)
+    rig.simulation.execute("#A")
+    stage.go(60)
+    yield "found-working", desk.question
+    studio.actions["connect"].trigger()
+    stage.go(30)
+    yield "leaving", desk.question
     desk.show_upload("#A\nPR 6370\nBG X\nEN\n")
     yield "upload", desk.upload
     desk.show_help("Program window")

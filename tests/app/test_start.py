@@ -17,8 +17,10 @@ from device import find
 from device.api import Kind, State
 from device.find import Found
 from device.transport import LineSettings, OpenFailed
+from tests.app.hands import Hands, Keys, Mouse
 from tests.rig import Rig
 from tests.stage import ASKS, Stage
+from widgets.connect.serial_setup import SerialChoice
 
 KNOWN = Candidate("/dev/ttyS0", "COM port", True)
 NEW = Candidate("/dev/ttyUSB0", "USB serial adapter", False)
@@ -98,12 +100,16 @@ def test_without_any_port_it_says_so(stage: Stage) -> None:
     assert "no serial port" in stage.studio.start.welcome_window().sentence.text()
 
 
+HANDS = pytest.mark.parametrize("hands", [Mouse, Keys], ids=["mouse", "keyboard"])
+
+
+@HANDS
 @pytest.mark.parametrize("way", ["simulator", "serial", "setup", "offline"])
-def test_the_welcome_window_offers_what_the_manual_offers(stage: Stage, way: str) -> None:
+def test_the_welcome_window_offers_what_the_manual_offers(stage: Stage, way: str, hands: type[Hands]) -> None:
     # ssc-tol-o-motion.txt, chapter 5: serial communication setup, offline setup, offline programming; and a simulator
     use(stage)
     stage.studio.start.look()
-    press(stage.studio.start.welcome_window().ways[way])
+    hands(stage.studio).press(stage.studio.start.welcome_window().ways[way])
     stage.go()
     shown = {
         "simulator": lambda: stage.controller.kind is Kind.SIMULATOR,
@@ -112,6 +118,62 @@ def test_the_welcome_window_offers_what_the_manual_offers(stage: Stage, way: str
         "offline": lambda: stage.studio.start.welcome is not None and not stage.studio.start.welcome.isVisible(),
     }
     assert shown[way]()
+
+
+@HANDS
+def test_the_way_from_the_search_to_a_line_that_was_set_up(stage: Stage, hands: type[Hands]) -> None:
+    use(stage, KNOWN, NEW)
+    stage.silent.add(KNOWN.device)
+    hand = hands(stage.studio)
+    hand.act("connect")
+    welcome = stage.studio.start.welcome_window()
+    stage.until(lambda: welcome.question.isVisible())  # the known one was silent; the new one is asked about
+    hand.press(welcome.skip)
+    assert "left alone" in welcome.sentence.text()
+    hand.press(welcome.ways["serial"])
+    serial = stage.studio.start.serial
+    assert serial is not None and serial.isVisible()
+    # ssc-tol-o-motion.txt l.1505-1511: first port, 9600, 8, 1, none, off, both
+    assert serial.choice == SerialChoice(KNOWN.device, 9600, 8, 1, "none", False, "both")
+    hand.fill(serial.port.lineEdit(), NEW.device)
+    hand.choose(serial.baud, "38 400")
+    hand.choose(serial.bits, "7")
+    hand.choose(serial.stop_bits, "2")
+    hand.choose(serial.parity, "Even")
+    hand.choose(serial.handshake, "RTS/CTS")
+    hand.press(serial.echo)
+    assert "for 38400 baud: 1200 OFF, 9600 ON, 19.2K ON, HSHK ON" in serial.switches.accessibleName()  # l.1525
+    hand.press(serial.connect_button)
+    stage.until(lambda: stage.controller.state is State.READY)
+    assert stage.studio.connection.address == NEW.device
+    assert stage.controller.line == LineSettings(38400, 7, "even", 2, "rts")
+    get = stage.studio.settings.get
+    assert (get("port"), get("baud"), get("echo")) == (NEW.device, 38400, True)
+    assert not welcome.isVisible()
+
+
+@HANDS
+def test_exit_leaves_from_the_welcome_window(stage: Stage, hands: type[Hands]) -> None:
+    use(stage)
+    stage.studio.start.look()
+    hands(stage.studio).press(stage.studio.start.welcome_window().exit)
+    assert not stage.studio.window.isVisible()
+
+
+def test_at_start_the_search_can_be_left_out(stage: Stage) -> None:
+    use(stage, KNOWN)
+    stage.studio.settings.set("look_at_start", False)
+    begin(stage.studio, None, "ask")
+    assert [controller.kind for controller in stage.controllers] == [Kind.SIMULATOR]
+
+
+def test_the_simulator_hangs_on_a_line_as_fast_as_is_set(stage: Stage) -> None:
+    begin(stage.studio, None, "simulator:ssc3")
+    stage.until(lambda: stage.controller.state is State.READY)
+    stage.go()
+    assert stage.controller.line.baud == 19200
+    assert stage.controller.model is not None and stage.controller.model.name == "ssc3"
+    assert "19 200 baud" in stage.studio.window.status.link.text()
 
 
 def test_try_again_looks_once_more(stage: Stage) -> None:

@@ -91,10 +91,11 @@ class Welcome(QDialog):
     def _lay_out(self) -> None:
         self.heading.setProperty("role", "title")
         self.sentence.setWordWrap(True)
-        self.question.setMinimumHeight(80)
+        self.question.setMinimumHeight(64)  # three lines: a wrapped label asks for less than it needs
+        self.question.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.busy.setRange(0, 0)
         self.busy.setTextVisible(False)
-        self.busy.setMaximumHeight(8)
+        self.busy.setStyleSheet("min-height: 6px; max-height: 6px;")
         self.busy.setAccessibleName("Looking for a controller")
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
@@ -131,6 +132,8 @@ class Welcome(QDialog):
         buttons.addWidget(self.skip)
         buttons.addWidget(self.allow)
         column = QVBoxLayout(self.ask)
+        column.setContentsMargins(16, 12, 16, 12)
+        column.setSpacing(12)
         column.addWidget(self.question)
         column.addLayout(buttons)
         return self.ask

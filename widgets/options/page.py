@@ -76,7 +76,7 @@ class OptionsPage(QDialog):
         column.setSpacing(24)
         column.addLayout(grid)
         column.addLayout(foot)
-        self.setMinimumWidth(560)
+        self.setMinimumWidth(640)
 
     @staticmethod
     def _add(grid: QGridLayout, label: str, words: str, editor: QWidget) -> None:
@@ -108,6 +108,7 @@ class OptionsPage(QDialog):
         number = QDoubleSpinBox()
         number.setRange(option.low, option.high)
         number.setDecimals(1)
+        number.lineEdit().setTextMargins(6, 0, 0, 0)
         number.setSuffix(f" {option.unit}")
         number.setValue(float(option.value))
         number.setKeyboardTracking(False)

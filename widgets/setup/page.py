@@ -294,6 +294,7 @@ class SetupPage(QDialog):
         controller.addWidget(self.take_serial, 2, 2)
         controller.setColumnStretch(3, 1)
         column.addLayout(controller)
+        column.addSpacing(8)
         heading = QLabel("Unit of each axis, and encoder counts (or steps) in one unit")
         heading.setProperty("role", "heading")
         column.addWidget(heading)
