@@ -7,7 +7,7 @@ import dataclasses as dc
 from codegen.document import Document
 
 JOIN_SECONDS = 1.0  # typing in one field within this time is one step
-MOST = 500  # steps kept
+MOST = 2000  # steps kept
 
 
 @dc.dataclass(frozen=True, slots=True)
