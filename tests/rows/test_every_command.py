@@ -79,6 +79,7 @@ def test_the_example_is_that_command_and_has_no_problems(row: Row) -> None:
         "dimensioned-twice",
         "routine-missing",
         "segment-alone",
+        "sequence-open",
         "calls-itself",
     }  # the rest of a real program
     assert found <= needed | (set() if row.program else {"only-from-port"})
