@@ -8,10 +8,23 @@ from typing import Any, Literal
 
 from codegen.document import Document
 from codegen.expressions import Bad, write
-from codegen.fields import AXES, OFF, Dimension, ListOf, PerAxis, PerAxisText, Quantity, fields_of, value_of
+from codegen.fields import (
+    AXES,
+    OFF,
+    Dimension,
+    ListOf,
+    PathQuantity,
+    PerAxis,
+    PerAxisText,
+    Quantity,
+    Table,
+    fields_of,
+    value_of,
+)
 from codegen.numbers import plain
 from codegen.program import Section, Steps, with_section
 from codegen.setup import Axis, Setup
+from codegen.tables import Grid, read_table, write_table
 from codegen.twoletter.emit.build import is_counted
 from codegen.units import in_counts
 
@@ -41,20 +54,42 @@ def _steps(steps: Steps, factors: dict[str, Fraction]) -> Steps:
     )
 
 
-def _item(item: Any, factors: dict[str, Fraction]) -> Any:
-    """An instruction or a row with its typed numbers in the new units."""
+def _item(item: Any, factors: dict[str, Fraction], letters: str = "") -> Any:
+    """An instruction or a row with its typed numbers in the new units; a row is told the axes of its path."""
     new: dict[str, Any] = {}
     for name, field in fields_of(item).items():
         value = getattr(item, name)
         match field:
+            case PathQuantity():
+                new[name] = scaled_text(value, _along(getattr(item, field.axis, letters), factors))
             case Quantity(dimension=dimension) if dimension in IN_UNITS:
                 letter = getattr(item, field.axis, "") if field.axis else ""
                 new[name] = scaled_text(value, factors.get(letter, Fraction(1)))
             case PerAxis(of=Quantity(dimension=dimension)) if dimension in IN_UNITS:
                 new[name] = _per_axis(value, factors)
             case ListOf():
-                new[name] = tuple(_item(row, factors) for row in value)
+                own = getattr(item, field.axes) if field.axes else ""
+                new[name] = tuple(_item(row, factors, own) for row in value)
+            case Table():
+                new[name] = _table(value, [factors.get(letter, Fraction(1)) for letter in item.column_axes])
     return dc.replace(item, **new) if new else item
+
+
+def _along(letters: str, factors: dict[str, Fraction]) -> Fraction:
+    """What a value of several axes is multiplied with: that of its first axis (a path has one unit)."""
+    return factors.get(letters[:1], Fraction(1))
+
+
+def _table(text: str, factors: list[Fraction]) -> str:
+    """A table of numbers, column by column; one that cannot be read stays as it was typed."""
+    grid = read_table(text)
+    if not isinstance(grid, Grid) or grid.columns != len(factors) or all(factor == 1 for factor in factors):
+        return text
+    rows = [
+        ["" if cell is None else plain(cell * factor) for cell, factor in zip(row, factors, strict=True)]
+        for row in grid.rows
+    ]
+    return write_table(rows)
 
 
 def _per_axis(texts: PerAxisText, factors: dict[str, Fraction]) -> PerAxisText:

@@ -21,6 +21,8 @@ from codegen.fields import (
     value,
 )
 from codegen.instructions.instruction import Group, Instruction
+from codegen.numbers import parse_number
+from codegen.setup import Setup
 
 ACCELERATION = Quantity(label="Acceleration", dimension=Dimension.ACCELERATION, positive=True)
 DECELERATION = Quantity(label="Deceleration", dimension=Dimension.ACCELERATION, positive=True)
@@ -191,6 +193,12 @@ class VariableArray(Instruction):
     def own_problem(self) -> tuple[str, str] | None:
         if self.mode is Declare.FORMAT and self.hexadecimal and self.digits.strip() in ("0", "9", "10"):
             return "digits", "Digits must lie between 1 and 8 for hexadecimal numbers"
+        return None
+
+    def setup_problem(self, setup: Setup) -> tuple[str, str] | None:
+        most = setup.limits.elements
+        if self.mode is Declare.ARRAY and int(parse_number(self.size) or 0) > most:
+            return "size", f"Elements must be at most {most} on the {setup.limits.title}"
         return None
 
     @classmethod

@@ -97,6 +97,11 @@ class ContourMode(Instruction):
         True,
     )
 
+    @property
+    def column_axes(self) -> tuple[str, ...]:
+        """Whose values stand in the columns; "" for the interval."""
+        return (*(("",) if self.timed else ()), *self.axes)
+
     def columns(self, setup: Setup) -> tuple[str, ...]:
         """What stands above the columns of the table."""
         return (*(("ms",) if self.timed else ()), *headings(self.axes, setup))
@@ -294,6 +299,11 @@ class ElectronicCam(Instruction):
         ),
         (CamPlace(),),
     )
+
+    @property
+    def column_axes(self) -> tuple[str, ...]:
+        """Whose values stand in the columns."""
+        return tuple(self.slaves)
 
     def columns(self, setup: Setup) -> tuple[str, ...]:
         """What stands above the columns of the table."""

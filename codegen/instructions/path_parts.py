@@ -235,9 +235,7 @@ def units_problem(setup: Setup, letters: str) -> str | None:
     for letter in letters[1:]:
         axis = setup.axis(letter)
         if axis.symbol != first.symbol:
-            return (
-                f"{letters[0]} is in {first.symbol} and {letter} in {axis.symbol}: a path needs one unit for all axes"
-            )
+            return f"{letters[0]} has the unit {first.symbol} and {letter} {axis.symbol}: a path needs one unit"
     return None
 
 

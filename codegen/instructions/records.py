@@ -9,6 +9,7 @@ from enum import StrEnum
 
 from codegen.fields import AxisName, Choice, Flag, ListOf, Number, VariableName, value
 from codegen.instructions.instruction import Group, Instruction
+from codegen.numbers import parse_number
 from codegen.setup import Setup
 
 
@@ -271,6 +272,14 @@ class RecordData(Instruction):
             return "count", f"How often must be at most {min(sizes)}, the elements of the smallest array"
         if self.endless and not self.values:
             return "count", "How often is missing (the size of the arrays that are filled over and over)"
+        return None
+
+    def setup_problem(self, setup: Setup) -> tuple[str, str] | None:
+        made, limits = sum(int(parse_number(row.size) or 0) for row in self.recordings), setup.limits
+        if made > limits.elements:
+            return "recordings", f"Arrays: {made} elements together; the {limits.title} has room for {limits.elements}"
+        if len(self.recordings) > limits.recorded_channels:
+            return "recordings", f"Arrays: the {limits.title} records {limits.recorded_channels} at a time"
         return None
 
     @classmethod

@@ -181,6 +181,10 @@ def _sum(first: str, second: str, sign: str = "+") -> str:
     left, right = _tree(first), _tree(second)
     if isinstance(left, Number) and isinstance(right, Number):
         return write(Number(left.value + right.value if sign == "+" else left.value - right.value))
+    if isinstance(left, Number) and not left.value and sign == "+":
+        return second
+    if isinstance(right, Number) and not right.value:
+        return first
     return write(Binary(sign, left, right))
 
 
