@@ -51,7 +51,7 @@ class Readings:
 
     def velocity(self, axis: int) -> float:
         """TV: mean over 0.25 s, counts/s."""
-        return (self._read(axis, layout.COUNTS) - self._read(axis, layout.COUNTS_BEFORE)) * 4.0
+        return self._read(axis, layout.MOVED) * 4.0
 
     def velocity_now(self, axis: int) -> float:
         """The machine's true speed, counts/s of the main encoder."""

@@ -104,6 +104,7 @@ def set_encoder(state: State, b: int, value: float) -> None:
         for slot in range(layout.HISTORY, layout.HISTORY + layout.HISTORY_LENGTH):
             state[b + slot] = -state[b + slot]
         state[b + layout.COUNTS], state[b + layout.COUNTS_BEFORE] = -counts, -state[b + layout.COUNTS_BEFORE]
+        state[b + layout.MOVED] = -state[b + layout.MOVED]
         state[b + layout.COUNTS_SHIFT] += 2.0 * counts
         state[b + layout.ENCODER_SIGN] = main
     if auxiliary != state[b + layout.AUXILIARY_SIGN]:

@@ -52,6 +52,7 @@ from device.simulator.kernel.layout import (
     MODE_STOPPING,
     MOTOR_ON,
     MOTOR_X,
+    MOVED,
     MOVING,
     NOISE,
     OFF_ON_ERROR,
@@ -101,6 +102,7 @@ def read_encoders(S: State, A: State, axis: int, moment: int) -> None:
     A[COUNTS] = counts
     A[ACTUAL] = counts + A[COUNTS_SHIFT]
     A[COUNTS_BEFORE] = A[HISTORY + moment]
+    A[MOVED] = counts - A[COUNTS_BEFORE]
     A[HISTORY + moment] = counts
     source = A[AUXILIARY_SOURCE]
     if source == 0.0:

@@ -166,6 +166,7 @@ AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
     MOTOR_ON,
     COUNTS,  # main encoder since power-up, sign of CE applied; DP does not change it
     COUNTS_BEFORE,  # COUNTS 256 samples ago
+    MOVED,  # COUNTS less COUNTS_BEFORE: a quarter of TV
     COUNTS_SHIFT,  # ACTUAL = COUNTS + COUNTS_SHIFT
     ACTUAL,  # TP
     ERROR,  # TE
@@ -268,7 +269,7 @@ AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
     HALL_ORDER_2,
     HALL_ORDER_3,
     HALL_SECTOR,  # 0..5 as the controller reads its inputs, -1: no valid pattern
-) = range(159)
+) = range(160)
 DELAY_RING = 160
 MAXIMUM_DELAY = 32
 HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV

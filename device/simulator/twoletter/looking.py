@@ -29,6 +29,7 @@ from device.simulator.twoletter.behaviour.registers import STORES
 from device.simulator.twoletter.state import AXES, FOREVER, Thread
 
 if TYPE_CHECKING:
+    from codegen.twoletter.evaluate import Names
     from device.simulator.motion import Motion, Range
     from device.simulator.twoletter.unit import Unit
 
@@ -48,18 +49,29 @@ class Seen:
 Look: TypeAlias = Callable[["Seen", "set[Range]"], int]
 """Adds the ranges within which a condition stays what it is; answers the tick that may change it."""
 
-# Operands that are a slot of their axis: comparing them with something is comparing the slot.
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """An operand that is a slot of its axis times `step`: comparing it with something is comparing the slot."""
+
+    slot: int
+    step: int = ONE  # in 1/65536
+    whole: bool = True  # the slot holds whole numbers; else the operand is rounded to 1/65536
+
+
 NUMBERS: Final = {
-    "TP": layout.ACTUAL,
-    "DP": layout.ACTUAL,
-    "RP": layout.REFERENCE,
-    "TE": layout.ERROR,
-    "TD": layout.AUXILIARY,
-    "DE": layout.AUXILIARY,
+    "TP": Measure(layout.ACTUAL),
+    "DP": Measure(layout.ACTUAL),
+    "RP": Measure(layout.REFERENCE),
+    "TE": Measure(layout.ERROR),
+    "TD": Measure(layout.AUXILIARY),
+    "DE": Measure(layout.AUXILIARY),
+    "TV": Measure(layout.MOVED, 4 * ONE),
+    "TT": Measure(layout.COMMAND, whole=False),
 }
 # Operands that change only when one of these slots of their axis does.
 SLOTS: Final[dict[str, tuple[int, ...]]] = {
-    **{name: (slot,) for name, slot in NUMBERS.items()},
+    **{name: (measure.slot,) for name, measure in NUMBERS.items()},
     "TD": (layout.AUXILIARY, layout.STEPS),
     "DE": (layout.AUXILIARY, layout.STEPS),
     "BG": (layout.MOVING,),
@@ -102,6 +114,7 @@ COMMANDED: Final = frozenset(
     | (STORES.keys() - READS.keys())
 )
 KEYWORDS: Final = frozenset({"P1CH", "P2CH", "P1CD", "P2CD", "F1", "F2", "F3", "F4", "F5"})  # reading changes nothing
+INSIDE: Final = 0.49  # of 1/65536: what is surely rounded to the next one
 COMPARES: Final = {"<": ">", ">": "<", "=": "=", "<=": ">=", ">=": "<=", "<>": "<>"}  # as seen from the other side
 
 
@@ -237,30 +250,55 @@ def _comparison(operator: str, left: Expression, right: Expression, unit: Unit) 
 
 
 def _slot(line: Ramp, motion: Motion) -> int:
-    base, slot = axis_base(line.axis), NUMBERS[line.name]
+    base, slot = axis_base(line.axis), NUMBERS[line.name].slot
     if slot == layout.AUXILIARY and motion.slot(base + layout.STEPPER):
         slot = layout.STEPS  # TD of a stepper
     return base + slot
 
 
 def _edge(line: Ramp, operator: str, still: Evaluator) -> Look:
+    return _time_edge(line, operator, still) if line.name == "TIME" else _slot_edge(line, operator, still)
+
+
+def _around(line: Ramp, now: int, operator: str, still: Evaluator, names: Names) -> tuple[int, int]:
+    """The values of the changing number, around the one of now, for which the comparison stays what it is."""
+    offset = sum(sign * term(names) for sign, term in line.terms)
+    low, high = same_side(line.sign * now + offset, operator, still(names), folded=line.folded)
+    low, high = max(low, LOWEST + 1) - offset, min(high, HIGHEST) - offset
+    return (-high, -low) if line.sign < 0 else (low, high)
+
+
+def _time_edge(line: Ramp, operator: str, still: Evaluator) -> Look:
     def look(seen: Seen, ranges: set[Range]) -> int:
-        names = seen.unit.names
-        offset = sum(sign * term(names) for sign, term in line.terms)
-        place = -1 if line.name == "TIME" else _slot(line, seen.unit.motion)
-        now = seen.unit.sample - seen.unit.state.clock_offset if place < 0 else seen.unit.motion.slot(place)
-        value = line.sign * int(now) * ONE + offset
-        low, high = same_side(value, operator, still(names), folded=line.folded)
-        low, high = max(low, LOWEST + 1) - offset, min(high, HIGHEST) - offset
-        if line.sign < 0:
-            low, high = -high, -low
-        lowest, highest = max(-(-low // ONE), -(2**31)), min(high // ONE, 2**31 - 1)
-        if not lowest <= now <= highest or now != int(now):
+        unit = seen.unit
+        now = unit.sample - unit.state.clock_offset
+        low, high = _around(line, now * ONE, operator, still, unit.names)
+        if not low <= now * ONE <= high:
             raise Restless
-        if place >= 0:
-            ranges.add((place, float(lowest), float(highest)))
-            return FOREVER
-        return seen.unit.clock.tick_of(highest + 1 + seen.unit.state.clock_offset)
+        return unit.clock.tick_of(high // ONE + 1 + unit.state.clock_offset)
+
+    return look
+
+
+def _slot_edge(line: Ramp, operator: str, still: Evaluator) -> Look:
+    measure, letter = NUMBERS[line.name], AXES[line.axis]
+
+    def look(seen: Seen, ranges: set[Range]) -> int:
+        names, place = seen.unit.names, _slot(line, seen.unit.motion)
+        value, now = names.operand(line.name, letter), seen.unit.clock.motion.slot(place)
+        low, high = _around(line, value, operator, still, names)
+        if not low <= value <= high or value != round(now * measure.step):
+            raise Restless
+        if measure.whole:
+            lowest, highest = float(-(-low // measure.step)), float(high // measure.step)
+            if measure.step == ONE:  # positions are told within 32 bits
+                lowest, highest = max(lowest, -(2.0**31)), min(highest, 2.0**31 - 1.0)
+        else:
+            lowest, highest = (low - INSIDE) / measure.step, (high + INSIDE) / measure.step
+        if not lowest <= now <= highest:
+            raise Restless
+        ranges.add((place, lowest, highest))
+        return FOREVER
 
     return look
 

@@ -22,7 +22,7 @@ OPERATORS = ("<", ">", "=", "<=", ">=", "<>")
 NUMBERS = (
     """
 _TPX|_TPY|_RPX|_RPY|_TEX|_TDX|_DEX|-_TPX|_RPX+A|_RPX-A+10|A-_RPX|-(_TPX-A)|@ABS[_TPX-A]|@ABS[_TEX]|@ABS[_TPX]-20
-@ABS[A-_RPX]|_TPX*2|@INT[_TPX/7]|@SIN[_TPX]*90|_AVS|_PAX|_TVX|_RLX
+@ABS[A-_RPX]|_TPX*2|@INT[_TPX/7]|@SIN[_TPX]*90|_AVS|_PAX|_TVX|@ABS[_TVY]|_TTX*100|_TTX|@ABS[_TTY]|_RLX
 """.replace("\n", "|")
     .strip("|")
     .split("|")
@@ -171,7 +171,9 @@ def test_the_compiled_and_the_plain_loop_run_programs_alike(block: int) -> None:
 FOREVER = 400_000  # commands of the runs below
 
 
-@pytest.mark.parametrize("condition", ["_BGX=1", "TIME<900000", "@IN[1]=1", "(_TPX<9000000)&(_BGX=1)", "1"])
+@pytest.mark.parametrize(
+    "condition", ["_BGX=1", "TIME<900000", "@IN[1]=1", "(_TPX<9000000)&(_BGX=1)", "_TVX>-1", "_TTX<9.9", "1"]
+)
 def test_a_waiting_loop_is_left_out(condition: str) -> None:
     bench = Bench("ssc1")
     bench.load(f"JG 10000;BGX;T0=0\n#L;JP#L,{condition}\nMG TIME\nEN")
