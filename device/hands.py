@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any
@@ -77,21 +76,6 @@ class Memory:
 
     def burn_variables(self) -> Future[Reply]:
         return self._c.run(commands.typed(self._c, "BV", 5.0), Priority.USER, "user")
-
-    def burn_words(self) -> str:
-        """What the next power-up will do once the program is burned."""
-        listing = self._c.listing
-        if listing is None:
-            return (
-                "The program in the controller is unknown. Burned, it will be there after the next power-up; "
-                "if it has an #AUTO it starts by itself."
-            )
-        if re.search(r"(?m)(^|;)\s*#\s*AUTO\b", listing):
-            return (
-                "At the next power-up this program starts by itself at #AUTO: "
-                "the machine may move as soon as it is switched on."
-            )
-        return "At the next power-up this program is in the controller but does not start: it has no #AUTO."
 
 
 class Motion:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from codegen.models import MODELS
 from device import commands
 from device.asking import Listing, parted
-from device.clock import Reading, Verdict
+from device.clock import TICKS, Reading, Verdict
 from device.download import recover, upload_steps
 from device.happenings import Kind, NoticeKind, State
 from device.identify import Identity, identify, read_once, read_surely
@@ -20,6 +20,7 @@ from device.wire import Shape
 if TYPE_CHECKING:
     from device.api import Controller
 
+HALT_S = 0.5  # a reset takes longer
 LAG_S = 3.0  # readings closer than this follow each other without a gap
 
 
@@ -111,11 +112,14 @@ class Events:
         c.link.submit(self._check_again(), Priority.USER, "poll")
 
     def _as_expected(self, reading: Reading) -> bool:
-        """A simulation may lag behind true time, so while it is read all the time only a step back counts."""
+        """A simulation may lag: while it is read all the time only a step back counts, or a clock that began again."""
         c = self._c
         last = c.clock_there.last
         if c.kind is Kind.SIMULATOR and last is not None and reading.came - last.came <= LAG_S:
-            return reading.samples >= last.samples
+            passed = max(reading.sent - last.came, 0.0) * TICKS / max(reading.period, last.period, 1.0)
+            advance = reading.samples - last.samples
+            began_again = reading.samples <= passed and advance < passed / 2 and reading.sent - last.came > HALT_S
+            return advance >= 0 and not began_again
         verdict = c.clock_there.judge(reading)
         if verdict is Verdict.ANOTHER and c.kind is Kind.SIMULATOR:
             return last is None or reading.samples >= last.samples

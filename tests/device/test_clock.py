@@ -167,3 +167,16 @@ def test_stop_while_the_clock_is_in_doubt_leaves_the_doubt() -> None:
     assert bench.controller.program_badge is Badge.UNKNOWN
     bench.run_until(lambda: not bench.controller.doubt)
     nothing_is_claimed(bench)
+
+
+@pytest.mark.parametrize("kind", [Kind.SIMULATOR, Kind.MACHINE])
+@pytest.mark.parametrize("ran_s", [0.1, 0.6, 1.5])
+def test_a_reset_soon_after_connecting_is_noticed(ran_s: float, kind: Kind) -> None:
+    """The clock is back at a small number that is still ahead of the one read before."""
+    bench = Bench("ssc1", kind=kind).ready()
+    bench.run(ran_s)
+    bench.controller.notices()
+    bench.simulation.stimulus("reset", 0)
+    bench.simulation.stimulus("reset", 1)
+    bench.run(6.0)
+    assert [notice.kind for notice in bench.controller.notices()].count(NoticeKind.RESTARTED) == 1

@@ -295,14 +295,15 @@ def test_the_badge_tells_how_program_and_document_stand() -> None:
     assert controller.program_badge is Badge.UNKNOWN
 
 
-def test_burning_says_what_the_next_power_up_will_do() -> None:
+def test_a_program_is_burned() -> None:
+    """It is there again after the power was off (dmc-1412-1414.txt l.2963)."""
     bench = Bench("ssc4").ready()
-    memory = bench.controller.memory
-    bench.result(bench.controller.download("#AUTO\nEN").future)
-    assert "starts by itself at #AUTO" in memory.burn_words()
-    bench.result(bench.controller.download("#A\nEN").future)
-    assert "does not start" in memory.burn_words()
-    assert bench.result(memory.burn_program()).accepted
+    bench.result(bench.controller.download("#A\nPR 7\nEN").future)
+    assert bench.result(bench.controller.burn_program()).accepted
+    bench.simulation.stimulus("reset", 0)
+    bench.simulation.stimulus("reset", 1)
+    bench.run(4.0)
+    assert bench.result(bench.controller.upload().future).rstrip("\n") == "#A\nPR 7\nEN"
 
 
 def test_a_cable_pulled_while_burning() -> None:
