@@ -108,7 +108,7 @@ class Idling:
         self._steps: list[Step | None] = []
         self._rest = 0  # jumps back until the next attempt
         self._pause = 0
-        self.allowed = True
+        self.allowed = True  # off only to compare
         self.left_out = 0  # commands
 
     def due(self) -> bool:
