@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +18,7 @@ from codegen.twoletter.fixed import ONE, as_integer, scaled
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.rows import Row
+from tests.examples import manual
 from tests.examples.script import Bench, commands_in
 from tests.facts.sheet import sheet
 
@@ -53,6 +55,7 @@ def test_every_command_of_the_manuals_is_in_the_table(fact: Fact) -> None:
         assert COMMANDS[name].known_to(model(each)), f"{name} on {each}: {where(fact)}"
 
 
+CHAPTERS = ("6", "11")  # of the command facts, beside their rows
 SSC_LIST = range(473, 615)  # the list of chapter 12 in the table of contents of the SSC's manual
 NO_COMMAND = {494, 538, 539, 540, 541, 542, 586}  # empty lines and headings between its pages
 # What only the command facts give to the other family: no word of its manual says whether it has it.
@@ -73,6 +76,38 @@ def test_every_line_of_chapter_12s_list_is_a_fact() -> None:
 def test_the_fact_sheet_has_the_commands_of_each_manual(family: str) -> None:
     on_sheet = {name for name, entry in sheet().items() if any(each.startswith(family) for each in entry.models)}
     assert on_sheet - {name for name, untold in UNTOLD if untold == family} == set(named(family))
+
+
+def cited() -> set[tuple[str, int]]:
+    """Every line of a manual that a fact names."""
+    here = Path(__file__).parent
+    found = {
+        (row["manual"][:3], row["line"])
+        for path in here.glob("*.toml")
+        for row in tomllib.loads(path.read_text(encoding="utf-8"))["fact"]
+    }
+    sources = {source for entry in sheet().values() for fact in entry.facts for source in fact.sources}
+    statements = "".join(path.read_text(encoding="utf-8") for path in here.glob("*.txt"))
+    sources |= {":".join(each) for each in re.findall(r"^== \w+ (dmc|ssc)-[^:]*:(\d+) ", statements, re.MULTILINE)}
+    return found | {(source[:3], int(source[4:])) for source in sources if not source.startswith("spec")}
+
+
+@pytest.mark.skipif(manual.folder() is None, reason="the manuals are not here (TWOLETTER_MANUALS)")
+def test_every_line_that_is_cited_has_words() -> None:
+    where = manual.folder()
+    assert where is not None
+    texts = {name: (where / file).read_text(encoding="utf-8").split("\n") for name, file in manual.FILES.items()}
+    places = cited()
+    assert len(places) > 400
+    assert not [place for place in places if not texts[place[0]][place[1] - 1].strip()]
+
+
+@pytest.mark.parametrize(
+    "source", sorted({source for entry in sheet().values() for fact in entry.facts for source in fact.sources})
+)
+def test_every_row_of_the_command_facts_that_is_cited_is_one(source: str) -> None:
+    manual_name, _, row = source.partition(":")
+    assert manual_name in ("dmc", "ssc") or row in COMMANDS or row in CHAPTERS
 
 
 def ends(name: str, model_name: str, stepper: bool = False) -> tuple[set[float], set[float]]:
