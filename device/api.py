@@ -28,7 +28,7 @@ from device.stop import NO_ANSWER_S, Stopping, StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 from device.wire import Kind as AnswerKind
-from device.wire import Shape, nonces
+from device.wire import Manners, Shape, nonces
 
 if TYPE_CHECKING:
     import numpy as np
@@ -78,6 +78,7 @@ class Controller:
         clock: Callable[[], float] = time.monotonic,
         own: OwnSimulator | None = None,
         known_models: Mapping[int, str] | None = None,
+        manners: Manners | None = None,
         threaded: bool = True,
     ) -> None:
         self.kind, self.line, self.clock = kind, line or LineSettings(), clock
@@ -114,6 +115,7 @@ class Controller:
         self.door.resting = self.resting
         self._events = Events(self)
         self.link = Link(opener or _no_transport, self.line, self._events, self.door, clock)
+        self.link.wire.manners = manners or self.link.wire.manners
         if opener is not None and threaded:
             self.link.start()
 
@@ -131,11 +133,19 @@ class Controller:
         kind: Kind | None = None,
         plant: Path | None = None,
         eeprom: Path | None = None,
+        profile: Path | None = None,
         **more: Any,
     ) -> Controller:
-        """A machine at a serial device or `socket://…`; `simulator:MODEL` starts a simulated controller of our own."""
+        """A machine at a serial device or `socket://…`; `simulator:MODEL` starts a simulated controller of our own.
+
+        `profile` is what `twoletter conform` wrote about it: raises ProfileUnreadable when it is none.
+        """
+        if profile is not None:
+            from device.simulator.twoletter.profile_file import load_profile
+
+            more["manners"] = load_profile(profile).manners()
         if address == "simulator" or address.startswith("simulator:"):
-            own = OwnSimulator(address.partition(":")[2] or "ssc4", plant, eeprom)
+            own = OwnSimulator(address.partition(":")[2] or "ssc4", plant, eeprom, profile)
             settings = line or LineSettings(baud=None)
             return cls(lambda: own.open(settings), kind=Kind.SIMULATOR, line=settings, own=own, **more)
         settings = line or LineSettings()

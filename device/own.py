@@ -12,8 +12,10 @@ from device.transport import LineSettings, OpenFailed, Transport, open_transport
 class OwnSimulator:
     """A simulated controller in a process of its own, started by the link's thread when it is first needed."""
 
-    def __init__(self, model: str, plant: Path | None = None, eeprom: Path | None = None) -> None:
-        self._model, self._plant, self._eeprom = model, plant, eeprom
+    def __init__(
+        self, model: str, plant: Path | None = None, eeprom: Path | None = None, profile: Path | None = None
+    ) -> None:
+        self._model, self._plant, self._eeprom, self._profile = model, plant, eeprom, profile
         self._process: SimulatorProcess | None = None
         self._closed = False
 
@@ -27,7 +29,9 @@ class OwnSimulator:
             except OpenFailed:
                 self._process.close()
         try:
-            self._process = SimulatorProcess(self._model, plant=self._plant, eeprom=self._eeprom, baud=line.baud)
+            self._process = SimulatorProcess(
+                self._model, plant=self._plant, eeprom=self._eeprom, profile=self._profile, baud=line.baud
+            )
         except OSError as reason:
             raise OpenFailed(f"The simulator did not start ({reason}).") from reason
         return open_transport(self._process.address, line)

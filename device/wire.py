@@ -98,6 +98,16 @@ class Answer:
     certain: bool = True
 
 
+@dataclass(frozen=True, slots=True)
+class Manners:
+    """How a controller answers where the manuals leave it open; the simulator's profile has the same settings."""
+
+    prompt_per_command: bool = True
+    error_ends_line: bool = True
+    upload_marked: bool = True  # UL ends with control-Z
+    answers_marked: bool = False  # CW1 sets bit 7 also of answers to MG
+
+
 def nonces() -> Iterator[str]:
     """Two-letter marks that come again only after 1296 others."""
     letters = string.ascii_lowercase + string.digits
@@ -119,7 +129,8 @@ FRAME_COLUMNS = len(framed("xx", ()))
 class Wire:
     """Takes bytes as they come and gives answers and texts."""
 
-    def __init__(self) -> None:
+    def __init__(self, manners: Manners | None = None) -> None:
+        self.manners = manners or Manners()
         self._buffer = bytearray()
         self._marked = bytearray()
         self._text = ""
@@ -166,7 +177,7 @@ class Wire:
         elif isinstance(expected, Proof):
             found = self._proof(expected)
         elif isinstance(expected, Prompts):
-            found = self._prompts(expected.count)
+            found = self._prompts(expected.count if self.manners.prompt_per_command else 1)
         elif isinstance(expected, Upload):
             found = self._upload()
         elif isinstance(expected, Revision):
@@ -251,7 +262,10 @@ class Wire:
         window = self._window(start)
         self._drop(start + len(mark))
         self._take_prompt()
-        text, certain = _without_prompts(window, expected.prompts)
+        if not self.manners.error_ends_line and (place := window.find("?")) >= 0:
+            self._add_text(window[:place] + window[place + 1 :].replace(":", ""))
+            return Answer(Kind.REFUSED)  # what stands behind it was carried out, so the frame proves nothing
+        text, certain = _without_prompts(window, expected.prompts if self.manners.prompt_per_command else 0)
         if text and not (expected.data and certain):
             self._add_text(text)
         if not expected.data:
@@ -281,10 +295,11 @@ class Wire:
         return None
 
     def _upload(self) -> Answer | None:
-        if len(self._buffer) > 1 and 0x1A not in self._buffer:
+        marked = self.manners.upload_marked
+        if len(self._buffer) > 1 and (0x1A not in self._buffer if marked else self._buffer[-1:] not in b":?"):
             return None  # a long listing is looked at once, at its end
         window = self._window(len(self._buffer))
-        match = re.search("\x1a(?:\r\n)?:", window)
+        match = re.search("\x1a(?:\r\n)?:" if marked else "(?:^|(?<=\r\n)(?:\r\n)?):$", window)
         if match is None:
             if window == "?":
                 self._drop(len(self._buffer))
@@ -317,7 +332,8 @@ class Wire:
 
     def _window(self, end: int) -> str:
         """What came before `end`, without marked characters and without the echo of the line sent."""
-        plain = bytes(b for b, marked in zip(self._buffer[:end], self._marked[:end], strict=True) if not marked)
+        mine = self.manners.answers_marked
+        plain = bytes(b for b, marked in zip(self._buffer[:end], self._marked[:end], strict=True) if not marked or mine)
         text = plain.decode("ascii")
         if self._echoes and text.startswith(self._echoes[-1]):
             text = text[len(self._echoes[-1]) :].removeprefix("\r\n")

@@ -7,10 +7,11 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TypeVar
 
 from app.cli.failure import UNUSABLE, Failure
-from app.cli.sources import known_models
+from app.cli.sources import known_models, read_profile
 from codegen.models import MODELS
 from device.api import Controller, Kind, State
 from device.tasks import LinkError
@@ -41,7 +42,9 @@ def checked_port(text: str) -> str:
 @contextmanager
 def connected(options: argparse.Namespace) -> Iterator[Controller]:
     """A connected controller; in Control where that was asked for or it is a simulator."""
-    controller = Controller.connect(checked_port(options.port), line_settings(options))
+    port, settings = checked_port(options.port), line_settings(options)
+    read_profile(options.profile)
+    controller = Controller.connect(port, settings, profile=Path(options.profile) if options.profile else None)
     try:
         wait_for(controller, options.port)
         if options.control and not controller.control:

@@ -49,12 +49,14 @@ def controller_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--controller", metavar="MODEL", choices=list(MODELS), help=" ".join(MODELS))
 
 
-def line_options(parser: argparse.ArgumentParser) -> None:
+def line_options(parser: argparse.ArgumentParser, profile: bool = True) -> None:
     """Options of every call that talks to a controller."""
     parser.add_argument("--port", required=True, help="serial device, socket://host:port or simulator[:MODEL]")
     parser.add_argument("--baud", type=int, metavar="N", help="speed of the line (default 9600)")
     parser.add_argument("--handshake", choices=HANDSHAKES, default="none")
     parser.add_argument("--address", type=int, choices=range(8), metavar="0-7", help="address in a daisy chain")
+    if profile:
+        parser.add_argument("--profile", metavar="PROFILE.toml", help="how this controller answers, from conform")
     parser.add_argument(
         "--control", action="store_true", help="may set, move and download; never needed for a simulator"
     )
@@ -129,7 +131,7 @@ def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     restore.add_argument("file", metavar="FILE")
     line_options(restore)
     conform = calls.add_parser("conform", help="compares a controller with the simulator; nothing moves")
-    line_options(conform)
+    line_options(conform, profile=False)
     conform.add_argument("-o", "--output", metavar="PROFILE.toml", help="what was found (default MODEL-profile.toml)")
     conform.add_argument("--force", action="store_true", help="overwrite an existing file")
     controller_option(conform)

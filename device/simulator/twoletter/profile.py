@@ -10,12 +10,15 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from codegen.models import Model
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.rows import Number, Row
+
+if TYPE_CHECKING:
+    from device.wire import Manners
 
 Value: TypeAlias = bool | int | float | str
 Change: TypeAlias = Mapping[str, Value]
@@ -210,6 +213,13 @@ class Profile:
     def array_upload_end(self) -> bytes:
         """Sent by QU after the last element."""
         return ENDS[self.array_end]
+
+    def manners(self) -> Manners:
+        """What the link has to know of it."""
+        from device.wire import Manners
+
+        marked = self.program_end.startswith("^Z")
+        return Manners(self.prompt_per_command, self.error_ends_line, marked, self.typed_message_marked)
 
     def code(self, code: int) -> int:
         """The controller's code of a refusal."""
