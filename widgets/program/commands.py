@@ -19,7 +19,7 @@ class CommandRow:
     keys: str
     picture: str
     help: str
-    in_menu: bool = True  # of the right click
+    in_menu: bool = True  # of the right click; its keys work in the program, those of the others in the whole window
 
 
 COMMANDS = (
@@ -47,6 +47,8 @@ COMMANDS = (
     CommandRow("find_next", "Find next", "F3", "", "The next step that holds what was searched", False),
     CommandRow("find_previous", "Find previous", "Shift+F3", "", "The step before that holds it", False),
     CommandRow("find", "Find instruction", "Ctrl+Shift+F", "search", "Searches the instructions", False),
+    CommandRow("trace", "Trace", "F8", "", "Follows a thread of the running program by its instructions", False),
+    CommandRow("program_status", "Program status…", "Shift+F8", "", "The threads and what they wait for", False),
     CommandRow("mode_program", "Program", "Ctrl+1", "program", "Plain English beside its code", False),
     CommandRow("mode_both", "Both", "Ctrl+2", "both", "Plain English and the whole code side by side", False),
     CommandRow("mode_code", "Code", "Ctrl+3", "code", "Only the two-letter code", False),

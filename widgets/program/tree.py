@@ -111,6 +111,13 @@ class ProgramTree(QTableView):
         self.selectionModel().select(selection, flags.ClearAndSelect)
         self.scrollTo(rows[-1])
 
+    def bring(self, name: str) -> None:
+        """Brings a row into view, unfolding what hides it; the selection stays."""
+        self._model.uncover(name)
+        index = self._model.index_of(name)
+        if index.isValid():
+            self.scrollTo(index)
+
     # ---- folding
 
     def fold(self, name: str, folded: bool) -> None:

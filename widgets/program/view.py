@@ -29,6 +29,7 @@ from widgets.program.model import ProgramModel
 from widgets.program.node import TITLES
 from widgets.program.palette import Palette
 from widgets.program.problems import ProblemsPanel
+from widgets.program.running import Running
 from widgets.program.tree import ProgramTree
 from widgets.program.words import Words
 from widgets.source.view import CodeView
@@ -39,10 +40,6 @@ if TYPE_CHECKING:
 MODES = ("program", "both", "code")
 NEEDS_STEP = frozenset(
     {"modify", "comment_out", "view_code", "cut", "copy", "delete", "duplicate", "move_up", "move_down"}
-)
-
-EVERYWHERE = frozenset(
-    {"undo", "redo", "find", "find_text", "replace_text", "find_next", "find_previous"} | {f"mode_{m}" for m in MODES}
 )
 
 
@@ -70,11 +67,11 @@ class ProgramView(QWidget):
         self.problems = ProblemsPanel()
         self.inspector = Inspector(offers_of(session.document))
         self.dialogs = Dialogs(self, session)
+        self.run = Running(session, self.words, self.tree, self.delegate, self.code)
         self.find_bar = FindBar()
         self.finding = Finding(session, self.words, self.tree, self.delegate, self.find_bar)
         self.arranging = Arranging(session, self.model, self.tree)
         self.mode = "program"
-        self.running: Listing | None = None
         self._stepping = self._showing = False
         self.commands = make_actions(self)
         self._lay_out()
@@ -111,23 +108,22 @@ class ProgramView(QWidget):
             listing = self.session.listing
             self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
 
+    @property
+    def running(self) -> Listing | None:
+        """What was downloaded and runs; None while that is not known."""
+        return self.run.listing
+
+    @running.setter
+    def running(self, listing: Listing | None) -> None:
+        self.run.listing = listing
+
     def show_executing(self, threads: Mapping[int, int | None]) -> None:
         """Marks the line each thread stands on (line of what was downloaded; None: the thread does not run)."""
-        listing = self.running or self.session.listing
-        steps: dict[str, tuple[int, ...]] = {}
-        for thread, line in threads.items():
-            if line is not None and 0 <= line < len(listing.lines):
-                step = listing.step_of(line)
-                steps[step] = (*steps.get(step, ()), thread)
-        if steps != self.delegate.executing:
-            self.delegate.executing = steps
-            self.delegate.show_marks()
-            self.tree.viewport().update()
-        self.code.show_executing(threads)
+        self.run.show_executing(threads)
 
     def show_error(self, line: int, text: str) -> None:
         """Opens the program on the instruction the controller stopped at."""
-        listing = self.running or self.session.listing
+        listing = self.run.present()
         step = listing.step_of(line) if 0 <= line < len(listing.lines) else ""
         self.delegate.error = (step, text)
         self.code.show_error(line)
@@ -312,6 +308,12 @@ class ProgramView(QWidget):
     def find(self) -> None:
         self.instructions.focus_search()
 
+    def trace(self) -> None:
+        self.run.trace()
+
+    def program_status(self) -> None:
+        self.run.show_status()
+
     def mode_program(self) -> None:
         self.set_view("program")
 
@@ -410,6 +412,7 @@ class ProgramView(QWidget):
         self.model.folded.connect(self._folded)
         self.arranging.said.connect(self.said)
         self.finding.said.connect(self.said)
+        self.run.step_wanted.connect(self.reveal_step)
         self.arranging.new_wanted.connect(lambda kind, place: self.dialogs.add(kind, place=place))
         tree.modify_wanted.connect(self.dialogs.modify)
         tree.chosen_changed.connect(self._selection_changed)
@@ -429,11 +432,11 @@ class ProgramView(QWidget):
 
     def _lay_out(self) -> None:
         self.tree.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
-        for name, action in self.commands.items():
-            everywhere = name in EVERYWHERE
-            context = Qt.ShortcutContext
-            action.setShortcutContext(context.WindowShortcut if everywhere else context.WidgetShortcut)
-            (self if everywhere else self.tree).addAction(action)
+        context = Qt.ShortcutContext
+        for row in COMMANDS:
+            action = self.commands[row.name]
+            action.setShortcutContext(context.WidgetShortcut if row.in_menu else context.WindowShortcut)
+            (self.tree if row.in_menu else self).addAction(action)
         self.splitter = QSplitter()
         self.splitter.setChildrenCollapsible(False)
         self.splitter.addWidget(self.tree)
@@ -443,7 +446,7 @@ class ProgramView(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 8, 8, 8)
         column.setSpacing(8)
-        for widget in (self.header, self.find_bar, self.bar, self.splitter):
+        for widget in (self.header, self.find_bar, self.run.bar, self.bar, self.splitter):
             column.addWidget(widget)
         column.setStretchFactor(self.splitter, 1)
         self.setAccessibleDescription(f"Sections {', '.join(TITLES[section.value] for section in Section)}")

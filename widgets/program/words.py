@@ -44,6 +44,11 @@ class Words:
         sentence = read.sentence(step.instruction, self.document.working_setup)
         return sentence if step.enabled else f"' {sentence}"
 
+    def sentence_of(self, step_id: str) -> str:
+        """The sentence of a step by its id; nothing when the program does not have it."""
+        steps = self.document.program.steps() if self.document is not None else ()
+        return next((self.english(step) for step in steps if step.id == step_id), "")
+
     def lines_of(self, step_id: str) -> list[int]:
         """The lines of code a step stands for, without those of its body."""
         return self._lines.get(step_id, [])

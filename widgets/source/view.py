@@ -75,12 +75,14 @@ class CodeView(QPlainTextEdit):
         if scroll and self.chosen:
             self._reveal(self.chosen[0])
 
-    def show_executing(self, executing: Mapping[int, int | None]) -> None:
-        """Marks the line each thread stands on."""
+    def show_executing(self, executing: Mapping[int, int | None], *, follow: bool = False) -> None:
+        """Marks the line each thread stands on; `follow` keeps the first of them in sight."""
         now = {thread: line for thread, line in executing.items() if line is not None}
         if now != self.executing:
             self.executing = now
             self._paint_extras()
+            if follow and now:
+                self._reveal(next(iter(now.values())))
 
     def show_error(self, line: int | None) -> None:
         """Marks the line the controller stopped on; None clears it."""
