@@ -60,7 +60,7 @@ def run(arguments: list[str], folder: str) -> tuple[float, dict[str, float]]:
 
 def start_figures() -> list[Figure]:
     """Ratio of the starts (best of three each, one round to warm up), and the wait for the simulator after it."""
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         studio = ["-c", STUDIO, folder]
         run(["-c", BARE], folder)
         cold = run(studio, folder)[0]
