@@ -167,6 +167,7 @@ class AxisReadout(QWidget):
         self.homed.setStyleSheet(
             f"QToolButton#homed {{ color: {quiet}; border: none; padding: 0; margin-left: -5px; }}"
             f"QToolButton#homed:focus {{ border: 2px solid {focus}; }}"
+            "QToolButton#homed::menu-indicator { image: none; width: 0; }"
         )
         self.name.setStyleSheet(f"color: {look().axis(self.letter).name()}; font-weight: 700;")
 
