@@ -33,7 +33,7 @@ ABSENT = [
     for name in CONTROLLERS
     if name not in entry.models
 ]
-EVERYDAY = ("ssc1", "ssc4", "dmc1412")  # the others run what these do not have; all in the long run
+EVERYDAY = ("ssc4", "dmc1412")  # the others run what these do not have; all in the long run
 
 
 def models_of(row: Row) -> list[Model]:
