@@ -23,6 +23,8 @@ class CommandRow:
 
 
 COMMANDS = (
+    CommandRow("print_program", "Print program…", "Ctrl+P", "", "The program in English: preview, printer, PDF", False),
+    CommandRow("print_code", "Print code…", "Ctrl+Shift+P", "", "The two-letter code: preview, printer, PDF", False),
     CommandRow("undo", "Undo", "Ctrl+Z", "undo", "Takes the last change back", False),
     CommandRow("redo", "Redo", "Ctrl+Y", "redo", "Makes the change again that was taken back", False),
     CommandRow("modify", "Modify…", "Ctrl+M", "edit", "Opens the dialog of the step (Enter or double click)"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPoint, Qt, Signal
+from PySide6.QtCore import QDate, QPoint, Qt, Signal
 from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidget
 
 from codegen import read
@@ -313,6 +313,22 @@ class ProgramView(QWidget):
 
     def program_status(self) -> None:
         self.run.show_status()
+
+    def print_program(self) -> None:
+        self._print("Print program")
+
+    def print_code(self) -> None:
+        self._print("Print code")
+
+    def _print(self, title: str) -> None:
+        from widgets.program.printing import PrintPreview, code_pages, program_pages  # late: few print, all start
+
+        document, date = self.session.document, QDate.currentDate().toString(Qt.DateFormat.ISODate)
+        code = title == "Print code"
+        pages = code_pages(document, self.words, date) if code else program_pages(document, self.words, date)
+        self.preview = PrintPreview(title, pages, document.program.name, self.window())
+        self.preview.said.connect(self.said)
+        self.preview.show()
 
     def mode_program(self) -> None:
         self.set_view("program")
