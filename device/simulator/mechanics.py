@@ -40,7 +40,7 @@ def exponential(matrix: Matrix) -> Matrix:
 
 
 def counts_per_radian(plant: Plant) -> float:
-    """Kf = 4N/2π (l.4419)."""
+    """Kf = 4N/2π (l.4440)."""
     return 4.0 * plant.encoder_lines / (2.0 * math.pi)
 
 

@@ -1,4 +1,4 @@
-"""The machine behind the motor command: amplifier, motor, friction, coupling, load (dmc-1412-1414.txt l.4336-4430).
+"""The machine behind the motor command: amplifier, motor, friction, coupling, load (dmc-1412-1414.txt l.4338-4445).
 
 The coefficients are worked out in `device.simulator.mechanics`, so that nothing here needs a transcendental function.
 """

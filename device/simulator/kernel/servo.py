@@ -1,4 +1,4 @@
-"""The servo filter: position error to motor command (commands.md 8, dmc-1412-1414.txt l.4436-4485)."""
+"""The servo filter: position error to motor command (commands.md 8, dmc-1412-1414.txt l.4454-4476)."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ from device.simulator.kernel.layout import (
 )
 from device.simulator.kernel.profile import freeze
 
-VOLTS = 20.0 / 65536.0  # of one count of the converter (l.4427)
+VOLTS = 20.0 / 65536.0  # of one count of the converter (l.4451)
 VELOCITY_VOLTS = 1.22e-6
 ACCELERATION_VOLTS = 1.5e-7
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from device.simulator.plant import Drive, Place, Plant
 
-VOLT = 20 / 65536  # of one count of the converter (dmc-1412-1414.txt l.4427)
+VOLT = 20 / 65536  # of one count of the converter (dmc-1412-1414.txt l.4451)
 PERIOD = 1 / 1024  # s at TM 1000
 State = tuple[float, float, float, float, float]  # motor angle and speed, current, load angle and speed
 
@@ -32,7 +32,7 @@ class Gains:
 
 
 def counts_a_radian(plant: Plant) -> float:
-    """Kf = 4N / 2π (l.4419)."""
+    """Kf = 4N / 2π (l.4440)."""
     return 4 * plant.encoder_lines / (2 * math.pi)
 
 
@@ -136,7 +136,7 @@ class Machine:
 
 
 def closed_loop(machine: Machine, gains: Gains, references: Sequence[float]) -> NDArray[numpy.float64]:
-    """Encoder positions at the samples under u = 4KP e + 4KD (e - e1) + KI/2 Σe (l.4436-4485)."""
+    """Encoder positions at the samples under u = 4KP e + 4KD (e - e1) + KI/2 Σe (l.4454-4476)."""
     plant, seen, last, total = machine.plant, [], 0.0, 0.0
     for reference in references:
         position = math.floor(machine.counts(plant.main) + 0.5)

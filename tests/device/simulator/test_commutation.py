@@ -8,7 +8,7 @@ from device.simulator.eeprom import Eeprom
 from device.simulator.plant import Plant
 from tests.device.simulator.bench import Bench
 
-CYCLE = 4000 / 3  # l.709: 4000 counts and three magnetic cycles a revolution
+CYCLE = 4000 / 3  # l.721-723: 4000 counts and three magnetic cycles a revolution
 
 
 def brushless(eeprom: Eeprom | None = None, **changes: object) -> Bench:
@@ -54,9 +54,9 @@ def test_three_inputs_carry_the_halls() -> None:
 
 def test_the_magnetic_cycle_may_have_a_fraction() -> None:
     bench = brushless()
-    bench.ask("BM 62000")  # l.702
+    bench.ask("BM 62000")  # l.719
     assert setting(bench, "BM") == 62000
-    bench.ask("BM 1333.333")  # l.709
+    bench.ask("BM 1333.333")  # l.723
     assert setting(bench, "BM") == pytest.approx(1333.333, abs=1e-5)
     assert bench.refused("BM 0") == 6
 

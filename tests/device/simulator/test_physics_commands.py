@@ -11,8 +11,8 @@ from codegen.models import model
 from device.simulator.plant import Drive, Place, Plant
 from tests.device.simulator.bench import Bench
 
-VOLT = 20 / 65536  # of one count of the converter (dmc-1412-1414.txt l.4427)
-SCALE = 4000 / (2 * math.pi)  # counts a radian of a 1000-line encoder (l.4424)
+VOLT = 20 / 65536  # of one count of the converter (dmc-1412-1414.txt l.4451)
+SCALE = 4000 / (2 * math.pi)  # counts a radian of a 1000-line encoder (l.4445)
 HELD = Plant(coulomb_friction=100.0)  # nothing moves: the filter alone
 
 
@@ -36,7 +36,7 @@ def pushed(counts: int, commands: str = "") -> Bench:
 
 
 def test_gain_and_zero_are_the_same_filter_in_other_words() -> None:
-    # l.4456-4462: K = 4 (KP + KD) = 4 GN, A = KD / (KP + KD) = ZR
+    # l.4460-4462: K = 4 (KP + KD) = 4 GN, A = KD / (KP + KD) = ZR
     bench = Bench("ssc1")
     bench.ask("GN 40;ZR 0.9")
     kp, kd = number(bench, "_KPX"), number(bench, "_KDX")
@@ -130,7 +130,7 @@ def test_gravity_needs_the_error_that_holds_it() -> None:
     assert number(bench, "_TEX") == pytest.approx(0.4 / (4 * 10 * VOLT), abs=1)
     bench.ask("KI 1")
     bench.wait(3000)
-    assert abs(number(bench, "_TEX")) <= 1  # l.883-891: the integrator takes it
+    assert abs(number(bench, "_TEX")) <= 1  # l.888-891: the integrator takes it
     bench.ask("MOX")
     motion = bench.simulation.motion
     bench.simulation.rest(10)
@@ -182,7 +182,7 @@ def swing(bench: Bench, samples: int) -> float:
 
 
 def test_dual_loop_settles_where_the_load_encoder_alone_swings() -> None:
-    # l.2240-2262: KD on the motor's encoder makes a loop with play stable
+    # l.2238-2250: KD on the motor's encoder makes a loop with play stable
     plant = Plant(backlash=40.0, main=Place.LOAD, auxiliary=Place.MOTOR)
     swings = []
     for dual in (0, 1):
@@ -196,7 +196,7 @@ def test_dual_loop_settles_where_the_load_encoder_alone_swings() -> None:
 
 
 def test_sampled_dual_loop_of_the_manual_corrects_the_play() -> None:
-    # l.2264-2289: four motor counts are one load count; the program corrects until the load is within 2 counts
+    # l.2256-2280: four motor counts are one load count; the program corrects until the load is within 2 counts
     plant = Plant(backlash=80, auxiliary=Place.LOAD, auxiliary_ratio=0.25, viscous_friction=0.01)
     bench = Bench("ssc1", {"X": plant})
     bench.ask("SHX;KD 200;KP 20")
@@ -286,7 +286,7 @@ def test_a_run_away_is_caught_by_the_error_limit(drive: Drive) -> None:
 
 @pytest.mark.parametrize("smoothing", [1, 2, 4, 8])
 def test_step_pulses_lag_by_the_time_constant_of_ks(smoothing: int) -> None:
-    # l.2150-2160: KS 2 is a time constant of 6 samples; at a constant speed a single pole of 1/(3 KS) a sample lags
+    # l.2147: KS 2 is a time constant of 6 samples; at a constant speed a single pole of 1/(3 KS) a sample lags
     # 3 KS - 1 samples behind what goes in
     bench = Bench("ssc1", {"X": Plant(drive=Drive.STEPPER)})
     bench.ask(f"MT 2;KS {smoothing};SHX;AC 1024000;JG 20480;BGX")
@@ -296,7 +296,7 @@ def test_step_pulses_lag_by_the_time_constant_of_ks(smoothing: int) -> None:
 
 
 def test_motion_is_complete_when_all_steps_are_out() -> None:
-    # l.2176-2183: AM ends with the profile, MC when as many steps are out as commanded
+    # l.2155: AM ends with the profile, MC when as many steps are out as commanded
     bench = Bench("ssc1", {"X": Plant(drive=Drive.STEPPER)})
     bench.ask("MT 2;KS 8;SHX")
     bench.run("AC 1024000;DC 1024000;SP 40000\nPR 4000;BGX;AMX;A=_TDX;T=TIME\nMCX;B=_TDX;T=TIME-T;EN")

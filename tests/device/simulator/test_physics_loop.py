@@ -12,7 +12,7 @@ from device.simulator.motion import Motion, Register
 from device.simulator.plant import Drive, Place, Plant
 from tests.device.simulator.reference import PERIOD, VOLT, Gains, Machine, closed_loop, counts_a_radian, loop_response
 
-ANALYSIS = Plant(amplifier_gain=4.0, encoder_lines=500.0)  # l.4523-4532: Kt 0.1, J 2e-4, Ka 4, N 500
+ANALYSIS = Plant(amplifier_gain=4.0, encoder_lines=500.0)  # l.4507-4515: Kt 0.1, J 2e-4, Ka 4, N 500
 ANALYSIS_GAINS = Gains(kp=12.5, kd=245.0)
 
 
@@ -55,7 +55,7 @@ def continuous(plant: Plant, gains: Gains, omega: float, period: float = 0.001) 
 
 
 def test_analysis_example_of_the_chapter() -> None:
-    # l.4558-4585: A = 390 000 (s + 51) / [s² (s + 2000)]; 200 rad/s, 70 degrees
+    # l.4564-4583: A = 390 000 (s + 51) / [s² (s + 2000)]; 200 rad/s, 70 degrees
 
     def printed(omega: float) -> complex:
         return 390_000 * (1j * omega + 51) / ((1j * omega) ** 2 * (1j * omega + 2000))
@@ -67,7 +67,7 @@ def test_analysis_example_of_the_chapter() -> None:
 
 
 def test_design_example_of_the_chapter() -> None:
-    # l.4640-4705: L = 3.175e6/[s² (s + 2000)], 500 rad/s and 45 degrees: P 82.4, 500 D 137.2, KP 20.6, KD 68.6
+    # l.4638-4718: L = 3.175e6/[s² (s + 2000)], 500 rad/s and 45 degrees: P 82.4, 500 D 137.2, KP 20.6, KD 68.6
     s = 500j
     printed = 3.175e6 / (s * s * (s + 2000))
     assert abs(printed) == pytest.approx(0.00625, rel=0.02)
@@ -82,7 +82,7 @@ def test_design_example_of_the_chapter() -> None:
 
 
 def test_design_example_as_the_simulator_runs_it() -> None:
-    # commands.md 11: with the printed parts (M 1000/s², so Kt 0.2; l.4612-4640) and a 16-bit converter the loop is
+    # commands.md 11: with the printed parts (M 1000/s², so Kt 0.2; l.4613-4638) and a 16-bit converter the loop is
     # 7.76e5/[s² (s + 2000)]: 195 rad/s, 27 degrees
     plant, gains = Plant(amplifier_gain=2.0, torque_constant=0.2), Gains(kp=20.6, kd=68.6)
     omega = crossover(lambda omega: continuous(plant, gains, omega))

@@ -70,7 +70,7 @@ def owed(peak: float, down: int, keeps: float) -> float:
 
 @pytest.mark.parametrize("smoothing", [0.5, 0.2, 0.05, 0.02])
 def test_a_smoothed_move_takes_the_time_of_its_filter_more(smoothing: float) -> None:
-    # l.2293-2312 and commands.md 7: v' += n (v - v'); over when less than half a count is owed
+    # l.2284-2310 and commands.md 7: v' += n (v - v'); over when less than half a count is owed
     keeps = 1 - smoothing
     for way, speed, up, down in moves(2)[: count(20, 300)]:
         seconds, peak = trapezoid(way, speed, up, down)
@@ -82,7 +82,7 @@ def test_a_smoothed_move_takes_the_time_of_its_filter_more(smoothing: float) -> 
 
 
 def test_smoothing_example_of_the_manual() -> None:
-    # l.2300-2312: PR 20000, AC DC 100000 (rounded to 99328), SP 5000, IT .5
+    # l.2303-2310: PR 20000, AC DC 100000 (rounded to 99328), SP 5000, IT .5
     seconds, peak = trapezoid(20000, 5000, 99328, 99328)
     tail = math.log(0.5 / owed(peak, 99328, 0.5)) / math.log(0.5)
     assert timed(20000, 5000, 99328, 99328, 0.5) == pytest.approx(seconds * SAMPLES + max(0, tail), abs=3)

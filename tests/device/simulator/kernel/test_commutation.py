@@ -19,7 +19,7 @@ def brushless(**changes: object) -> Motion:
     motion.set(0, Register.ERROR_LIMIT, 500)
     motion.set(0, Register.OFF_ON_ERROR, 1)
     motion.commutation.enable(0, True)
-    motion.commutation.set_cycle(0, 4000 / 3)  # l.709: BM 1333.333
+    motion.commutation.set_cycle(0, 4000 / 3)  # l.723: BM 1333.333
     motion.run(1)
     return motion
 
@@ -127,7 +127,7 @@ def test_phase_and_cycle() -> None:
 
 
 def two_phases(volts: float, believed: float, rotor: float, offset: float, swapped: bool) -> float:
-    """Volts that turn the motor: two windings a quarter of a cycle apart, each drawn to its own axis (l.709-716)."""
+    """Volts that turn the motor: two windings a quarter of a cycle apart, each drawn to its own axis (l.707-715)."""
     lead = math.radians(believed + 90)
     first, second = volts * math.cos(lead), volts * math.sin(lead) + offset
     if swapped:
@@ -154,5 +154,5 @@ def test_the_command_turns_as_two_phases_do(swapped: bool, offset: float) -> Non
         motion.run(1)
         rotor = believed - motion.commutation.phase_error(0)  # where the motor really is; its zero is arbitrary
         volts = two_phases(2.0, believed, rotor, offset, swapped)
-        gain = 0.1 / 2.0e-4 * 4000 / (2 * math.pi)  # Ka Kt / J in counts/s² a volt (l.4389, 4424)
+        gain = 0.1 / 2.0e-4 * 4000 / (2 * math.pi)  # Ka Kt / J in counts/s² a volt (l.4394, 4445)
         assert motion.velocity_now(0) == pytest.approx(gain * volts / 1024, abs=1 + 0.01 * gain / 1024)

@@ -15,7 +15,7 @@ from device.simulator.motion import Motion, Register
 from device.simulator.plant import Drive, Place, Plant
 
 PERIOD = 1 / 1024
-SCALE = 4000 / (2 * math.pi)  # Kf of a 1000-line encoder, 638 counts/rad (l.4424)
+SCALE = 4000 / (2 * math.pi)  # Kf of a 1000-line encoder, 638 counts/rad (l.4445)
 
 
 def motion_slot(name: str) -> int:
@@ -34,7 +34,7 @@ def open_loop(plant: Plant, volts: float) -> Motion:
 
 
 def test_current_drive_is_a_double_integrator() -> None:
-    # l.4382-4398: P/V = Ka Kt / (J s²), 1000 rad/V with Ka 2
+    # l.4390-4398: P/V = Ka Kt / (J s²), 1000 rad/V with Ka 2
     motion = open_loop(Plant(amplifier_gain=2.0), 0.1)
     motion.run(1024)
     assert motion.velocity_now(0) == pytest.approx(1000 * 0.1 * SCALE, rel=1e-9)
@@ -43,7 +43,7 @@ def test_current_drive_is_a_double_integrator() -> None:
 
 
 def test_voltage_drive_has_both_time_constants() -> None:
-    # l.4370-4381: 40 / [s (0.04 s + 1)(0.002 s + 1)] rad/V for Kv 4; exact: the poles of s² L J + s R J + Kt²
+    # l.4370-4388: 40 / [s (0.04 s + 1)(0.002 s + 1)] rad/V for Kv 4; exact: the poles of s² L J + s R J + Kt²
     plant = Plant(drive=Drive.VOLTAGE, amplifier_gain=4.0)
     motion = open_loop(plant, 0.5)
     motion.trace(400)
@@ -65,7 +65,7 @@ def test_voltage_drive_without_inductance() -> None:
 
 
 def test_velocity_drive() -> None:
-    # l.4405: ω/V = 1 / [Kg (s T1 + 1)], T1 = J / (Ka Kt Kg)
+    # l.4407-4411: ω/V = 1 / [Kg (s T1 + 1)], T1 = J / (Ka Kt Kg)
     motion = open_loop(Plant(drive=Drive.VELOCITY, amplifier_gain=2.0, tachometer_gain=0.1), 1.0)
     motion.run(20)
     t1 = 2e-4 / (2 * 0.1 * 0.1)

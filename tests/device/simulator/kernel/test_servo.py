@@ -28,7 +28,7 @@ def held(error: int, **registers: float) -> Motion:
 
 
 def test_proportional_is_four_kp() -> None:
-    # commands.md 8; dmc-1412-1414.txt l.4436-4485
+    # commands.md 8; dmc-1412-1414.txt l.4454-4476
     motion = held(100, kp=6, kd=0)
     assert motion.torque(0) == pytest.approx(4 * 6 * 100 * VOLT, abs=1e-12)
 
