@@ -72,7 +72,7 @@ class Connection(QObject):
         before, self.controller = self.controller, opened.controller
         self.world, self.address = opened.world, address
         self.changed.emit(self.controller)
-        before.close()
+        before.leave()
 
     def stop(self) -> None:
         """STOP, whatever is connected."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
@@ -180,6 +181,13 @@ class Controller:
         if self.simulator is not None:
             self.simulator.close()
         self.state, self.state_text, self._stop_state = State.OFFLINE, "Offline", StopState.NO_LINK
+
+    def leave(self) -> None:
+        """Closes without making the caller wait for the line or a process of ours to end."""
+        if self.link.threaded:
+            threading.Thread(target=self.close, name="leaving").start()
+        else:
+            self.close()
 
     def choose_model(self, name: str) -> int | None:
         """The person says which type an unknown controller is; the serial number to remember it by, if it has one."""

@@ -80,6 +80,11 @@ class Link:
         self._thread = threading.Thread(target=self._run, name="link", daemon=True)
         self._thread.start()
 
+    @property
+    def threaded(self) -> bool:
+        """Whether a thread of its own serves the line."""
+        return self._thread is not None
+
     def close(self) -> None:
         self._closing.set()
         if self._thread is not None and self._thread is not threading.current_thread():
