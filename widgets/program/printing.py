@@ -39,9 +39,8 @@ def program_pages(document: Document, words: Words, date: str) -> QTextDocument:
     for section in Section:
         steps = document.program.section(section)
         if steps:
-            parts.append(
-                f"<p style='font-size: 5pt'>&nbsp;</p><h2>{TITLES[section.value]}</h2><table width='100%' cellspacing='0'>"
-            )
+            parts.append("<p style='font-size: 5pt'>&nbsp;</p>")
+            parts.append(f"<h2>{TITLES[section.value]}</h2><table width='100%' cellspacing='0'>")
             parts += _rows(steps, words, 0)
             parts.append("</table>")
     return _pages("".join(parts))
