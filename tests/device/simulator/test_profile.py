@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,9 @@ from device.simulator.simulation import Simulation
 from device.simulator.twoletter.profile import DEFAULTS, SETTINGS, Profile, ProfileWrong
 from device.simulator.twoletter.profile_file import ProfileUnreadable, load_profile, profile_text, read_profile
 from tests.device.simulator.bench import MS, Bench
+from tests.device.simulator.test_fuzz import LEAVE, QUIET, command
 from tests.device.simulator.test_server import connect, until
+from tests.long import count
 
 BY_TABLE = re.compile(r"format|default|range|numbers|\d{2}|editions|moving|public")  # what [commands.X] corrects
 
@@ -276,3 +279,30 @@ def test_a_reset_takes_its_time() -> None:
     assert bench.simulation.transmit(1) == b""
     bench.simulation.advance(30 * MS)
     assert bench.simulation.transmit(1) == b":"
+
+
+def other(name: str) -> Any:
+    """A value that is not the default."""
+    default = DEFAULTS[name]
+    if isinstance(default, bool):
+        return not default
+    if SETTINGS[name].choices:
+        return next(choice for choice in SETTINGS[name].choices if choice != default)
+    if isinstance(default, float):
+        return default * 2
+    return "Rev 9" if isinstance(default, str) else max(SETTINGS[name].low, default // 2)
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_with_any_setting_it_can_be_stopped(name: str) -> None:
+    chance = random.Random(name)
+    bench = bench_with(**{name: other(name)})
+    bench.load("#A\nN=@INT[N-0.5]+@RND[N*3]\nMG N\nWT 2\nJP#A")
+    for _ in range(count(60, 2000)):
+        bench.type(command(chance) + "\r", ms=chance.choice([0, 2, 5]))
+        if not bench.simulation.unit.running():
+            bench.type("N=0;XQ#A\r", ms=3)
+    for _ in range(2):
+        bench.type(f"{LEAVE}%{bench.simulation.unit.address}\r{QUIET}", ms=1500)
+    assert bench.type("MG 6*7{F3.0}\r").replace("MG 6*7{F3.0}\r", "").strip("\r\n: ") == "042"
+    assert not bench.simulation.unit.running() and not bench.simulation.unit.moving()
