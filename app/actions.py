@@ -44,6 +44,7 @@ ROWS: tuple[Row, ...] = (
     Row("recent", "Open recent", "File", "Programs opened last"),
     Row("save", "Save", "File", "Saves the program", "Ctrl+S", "save", "main", "Save"),
     Row("save_as", "Save as…", "File", "Saves the program under another name", "Ctrl+Shift+S"),
+    Row("recover", "Recover unsaved work…", "File", "Work that an earlier session left behind without saving it"),
     Row("export_code", "Export code…", "File", "Writes the two-letter code into a file", "", "export"),
     Row("options", "Settings…", "File", "Colours, what happens at start, the simulator's line", "Ctrl+,", "settings"),
     _program("-6", "File"),

@@ -105,6 +105,7 @@ class Studio(QObject):
         desk, run, start = self.desk, self.run, self.start
         return {
             "new": self.files.new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
+            "recover": desk.show_unsaved,
             "export_code": self.files.export_code, "options": self.options.show, "exit": self._exit,
             "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),

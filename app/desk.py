@@ -167,6 +167,11 @@ class Desk(QObject):
         self.unsaved.raise_()
         return True
 
+    def show_unsaved(self) -> None:
+        """The same when a person asks for it."""
+        if not self.offer_recovery():
+            self.say("There is no unsaved work of an earlier session.")
+
     def _recover(self, row: int) -> None:
         """Opens it; what is open and unsaved is set aside, not lost."""
         if 0 <= row < len(self._left) and self.unsaved is not None:

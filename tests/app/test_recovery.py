@@ -139,3 +139,13 @@ def test_nothing_left_nothing_asked(stage: Stage) -> None:
     begin(stage.studio, None, "offline")
     assert stage.studio.desk.unsaved is None
     assert stage.studio.session.document.program.main  # the sample
+
+
+def test_the_rest_can_be_fetched_later_from_the_menu(stage: Stage) -> None:
+    recover = stage.studio.actions.actions["recover"]
+    recover.trigger()
+    assert stage.studio.desk.unsaved is None  # nothing there: said, no window
+    assert "no unsaved work" in stage.studio.window.status.currentMessage()
+    leave(stage, "FIRST")
+    recover.trigger()
+    assert [line.split(" – ")[0] for line in lines(stage)] == ["FIRST"]
