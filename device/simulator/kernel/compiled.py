@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import importlib
 import inspect
 import os
 import shutil
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -51,6 +53,7 @@ SELDOM = (
     "uniform",
 )
 PACKAGE = "device.simulator.kernel"
+UNUSED_S = 14 * 86400.0  # a cache that nothing has used for so long belongs to a version that is gone
 
 
 class CompilerMissing(Exception):
@@ -86,17 +89,19 @@ def make_cache_folder() -> Path | None:
     folder = cache_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        os.utime(folder)  # in use
     except OSError:
         return None
     return folder if os.access(folder, os.W_OK) else None
 
 
 def drop_old_caches() -> None:
-    """Removes what earlier versions of the kernel left in the cache."""
-    current = cache_folder()
+    """Removes what earlier versions of the kernel left in the cache; another copy that is in use keeps its own."""
+    current, oldest = cache_folder(), time.time() - UNUSED_S
     for folder in current.parent.glob("kernel-*"):
-        if folder != current:
-            shutil.rmtree(folder, ignore_errors=True)
+        with contextlib.suppress(OSError):  # another process drops it at the same time
+            if folder != current and folder.stat().st_mtime < oldest:
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 def plain_loop() -> Loop:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import sys
+import time
 from pathlib import Path
 
 import numpy
@@ -134,9 +136,13 @@ def test_a_cache_that_can_not_be_written_is_not_needed(tmp_path: Path, monkeypat
     assert compiled.make_cache_folder() is None
 
 
-def test_only_this_versions_cache_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("kernel-old", "kernel-new", "other"):
+def test_caches_that_nothing_uses_are_dropped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("kernel-old", "kernel-beside", "kernel-new", "other"):
         (tmp_path / name).mkdir()
+    for name in ("kernel-old", "kernel-new", "other"):
+        os.utime(tmp_path / name, (1.0, time.time() - 2 * compiled.UNUSED_S))
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path / "kernel-new")
     compiled.drop_old_caches()
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["kernel-new", "other"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["kernel-beside", "kernel-new", "other"]
+    compiled.make_cache_folder()
+    assert (tmp_path / "kernel-new").stat().st_mtime == pytest.approx(time.time(), abs=60)  # in use again
