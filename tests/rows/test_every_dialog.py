@@ -76,10 +76,8 @@ def excused(instruction: Instruction) -> set[int]:
     """Error codes that depend on what else the program does, which no dialog can know."""
     if isinstance(instruction, Execute) and instruction.thread.strip() == "0":
         return {19}  # thread 0 runs already: the dialog warns
-    if isinstance(instruction, RecordData) and any(
-        not row.size and row.array != "POS" for row in instruction.recordings
-    ):
-        return {82}  # an array that another instruction has to dimension
+    if isinstance(instruction, RecordData) and any(not row.size for row in instruction.recordings):
+        return {6, 66, 82}  # arrays that another instruction has to dimension, large enough
     if isinstance(instruction, VariableArray | RecordData):
         return {66}  # the ten elements of this program are in the way
     return set()
