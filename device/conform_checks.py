@@ -173,9 +173,10 @@ def error_code(session: Session) -> Seen:
         refused()
         talk.code()
         yield "error_code_cleared_by_reading", talk.code() == 0
+    code = talk.refusal("QQ")
     refused()
     text = talk.line("TC1").text.strip()
-    forms = (("1 text", r"\d{1,2} [A-Z]"), ("001 text", r"0\d\d [A-Z]"), ("001 - text", r"0\d\d - [A-Z]"))
+    forms = (("1 text", f"{code} [A-Z]"), ("001 text", f"{code:03d} [A-Z]"), ("001 - text", f"{code:03d} - [A-Z]"))
     for form, pattern in forms:
         if re.match(pattern, text):
             yield "error_text", form
