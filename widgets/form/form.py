@@ -132,7 +132,7 @@ class InstructionForm(QWidget):
         self.fields.show_offers(offers)
         if self.fields.item is None:
             return
-        if offers.setup.model != before.setup.model:
+        if offers.setup != before.setup:  # the form was built anew
             self._show_picture(self.instruction)
         self._refresh()
 
@@ -156,7 +156,10 @@ class InstructionForm(QWidget):
             self.picture = make(self.offers)
             if isinstance(self.picture, CommandList):
                 self.picture.picked.connect(self._put_in)
-            self._beside.addWidget(self.picture, 1)
+            if self.fields.tight:  # there is room below the shorter column
+                self.fields.last_column.addWidget(self.picture, 1)
+            else:
+                self._beside.addWidget(self.picture, 1)
 
     def _put_in(self, text: str) -> None:
         """A picked command becomes the next line of the code."""

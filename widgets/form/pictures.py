@@ -8,5 +8,11 @@ from PySide6.QtWidgets import QWidget
 
 from widgets.form.command_list import CommandList
 from widgets.form.offers import Offers
+from widgets.form.path_picture import PathPicture
 
-PICTURES: Mapping[str, Callable[[Offers], QWidget]] = {"TwoLetterCode": CommandList}
+PICTURES: Mapping[str, Callable[[Offers], QWidget]] = {
+    "TwoLetterCode": CommandList,
+    "CircularPath": PathPicture,
+    "TangentPath": PathPicture,
+    "LinearPath": PathPicture,
+}
