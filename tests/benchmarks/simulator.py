@@ -69,12 +69,12 @@ LOADED_S = 120.0
 
 
 def times_real_time(source: str, seconds: float) -> tuple[float, float]:
-    """Virtual over processor time: cold (the first run of this process) and warm (the best of three).
+    """Virtual over processor time: cold (the first run of this process) and warm (the best of ten).
 
     Processor time is what the wall clock shows on an idle computer; busy neighbours do not count.
     """
     ratios = []
-    for _ in range(4):
+    for _ in range(11):
         simulation = Simulation(model("ssc4"))
         simulation.load_program("N=0\n" + source)
         simulation.execute(0)
