@@ -9,16 +9,19 @@ import dataclasses
 from collections.abc import Callable, Iterator, Sequence
 
 from codegen.document import Document
-from codegen.fields import AXES, SYSTEM_LABELS
+from codegen.fields import AXES, SYSTEM_LABELS, PerAxisText
 from codegen.generate import code
 from codegen.instructions import (
     AutoExecution,
     BeginMotion,
     Comment,
+    Drive,
     End,
+    Execute,
     Instruction,
     Jump,
     Label,
+    MathematicalEquation,
     MotionParameters,
     Output,
     SingleAxisMove,
@@ -29,13 +32,16 @@ from codegen.instructions import (
     Wait,
     WaitForCondition,
 )
-from codegen.instructions.flow import EndOf, InputLevel, JumpKind, Routine
+from codegen.instructions.flow import EndOf, InputLevel, JumpIf, JumpKind, Routine
 from codegen.instructions.io import Level, OutputMode
+from codegen.instructions.machine import Power
+from codegen.instructions.math import Equation
 from codegen.instructions.motion import Beginning, MoveMode, WaitFor, Which
 from codegen.instructions.waits import Finished, WaitKind
 from codegen.program import Program, Step, program_label
 from codegen.setup import Setup, Unit
-from codegen.twoletter.nodes import Axes, Command, Line, Number, Source, Statement, String, Variable
+from codegen.twoletter.format import format_argument, format_expression
+from codegen.twoletter.nodes import Assign, Axes, Command, Line, Number, Source, Statement, String, Target, Variable
 from codegen.twoletter.nodes import Comment as CommentNode
 from codegen.twoletter.nodes import Label as LabelNode
 from codegen.twoletter.parse import parse
@@ -105,13 +111,57 @@ def port(statement: Command, _: str) -> Instruction | None:
 
 
 def jump(kind: JumpKind) -> Maker:
-    """JP or JS without a condition."""
+    """JP or JS, with a condition or without."""
 
     def make(statement: Command, _: str) -> Instruction | None:
-        label = getattr(statement.arguments[0], "label", None) if len(statement.arguments) == 1 else None
-        return Jump(kind=kind, target=label) if label else None
+        label = getattr(statement.arguments[0], "label", None) if statement.arguments else None
+        if not label:
+            return None
+        if len(statement.arguments) == 1:
+            return Jump(kind=kind, target=label)
+        return Jump(kind=kind, target=label, when=JumpIf.CONDITION, condition=format_argument(statement.arguments[1]))
 
     return make
+
+
+def execute(statement: Command, _: str) -> Instruction | None:
+    """XQ with a label and a thread."""
+    match statement.arguments:
+        case (Target(label=str(label)), Number(text=thread)):
+            return Execute(label=label, thread=thread)
+    return None
+
+
+def drive(power: Power) -> Maker:
+    """SH or MO with its axes."""
+
+    def make(statement: Command, axes: str) -> Instruction | None:
+        named = letters(statement, axes)
+        return Drive(power=power, axes=named) if named else None
+
+    return make
+
+
+def equation(statement: Assign) -> Instruction:
+    """`V=expression`"""
+    target = format_expression(statement.target)
+    return MathematicalEquation(equations=(Equation(variable=target, expression=format_expression(statement.value)),))
+
+
+def per_axis(statement: Command) -> PerAxisText | None:
+    """The plain numbers of a command at the places of their axes."""
+    texts = [argument.text if isinstance(argument, Number) else "" for argument in statement.arguments]
+    if len(texts) > len(AXES) or not any(texts):
+        return None
+    x, y, z, w = (*texts, *[""] * (len(AXES) - len(texts)))
+    return x, y, z, w
+
+
+def one_axis(statement: Statement) -> tuple[str, str] | None:
+    """The axis and the number of a command that has only one."""
+    texts = per_axis(statement) if isinstance(statement, Command) else None
+    given = [(letter, text) for letter, text in zip(AXES, texts, strict=True) if text] if texts else []
+    return given[0] if len(given) == 1 else None
 
 
 def begin(statement: Command, axes: str) -> Instruction | None:
@@ -150,6 +200,9 @@ MAKERS: dict[str, Maker] = {
     "JS": jump(JumpKind.CALL),
     "BG": begin,
     "ST": stop,
+    "XQ": execute,
+    "SH": drive(Power.ENABLE),
+    "MO": drive(Power.DISABLE),
     "IN": ask,
     "EN": end(EndOf.SUBROUTINE),
     "RE": end(EndOf.ERROR),
@@ -190,32 +243,37 @@ def single(statement: Statement, setup: Setup) -> Instruction | None:
         made = Comment(text=statement.text.strip(), in_code=True)
     elif isinstance(statement, Command) and statement.name in MAKERS:
         made = MAKERS[statement.name](statement, setup.letters)
-    elif isinstance(statement, Command) and statement.name in RATES and (text := number(statement)):
-        made = MotionParameters(**{RATES[statement.name]: (text, "", "", "")})
+    elif isinstance(statement, Command) and statement.name in RATES and (texts := per_axis(statement)):
+        made = MotionParameters(**{RATES[statement.name]: texts})
+    elif isinstance(statement, Assign):
+        made = equation(statement)
     return made if made and makes(made, [statement], setup) else None
 
 
 def move(statements: list[Statement], setup: Setup) -> tuple[Instruction, int] | None:
-    """A whole move at the beginning of these statements, and how many of them it is."""
+    """A whole move of one axis at the beginning of these statements, and how many of them it is."""
     first = statements[0]
-    if not isinstance(first, Command) or first.name not in MOVES or not (text := number(first)):
+    if not isinstance(first, Command) or first.name not in MOVES or not (found := one_axis(first)):
         return None
+    axis, text = found
     mode, name = MOVES[first.name]
     values: dict[str, str] = {name: text}
     flags: dict[str, object] = {"begin": False, "wait": WaitFor.NOTHING}
     best: tuple[Instruction, int] | None = None
     for count, each in enumerate(statements, 1):
         if count > 1:
-            value = number(each) if isinstance(each, Command) else None
-            if isinstance(each, Command) and each.name in RATES and value:
-                values[RATES[each.name]] = value
-            elif isinstance(each, Command) and each.name == "BG":
+            if not isinstance(each, Command):
+                break
+            value = one_axis(each)
+            if each.name in RATES and value and value[0] == axis:
+                values[RATES[each.name]] = value[1]
+            elif each.name == "BG":
                 flags["begin"] = True
-            elif isinstance(each, Command) and each.name == "AM":
+            elif each.name == "AM":
                 flags["wait"] = WaitFor.PROFILE
             else:
                 break
-        made = SingleAxisMove(axis="X", mode=mode, **values, **flags)  # type: ignore[arg-type]
+        made = SingleAxisMove(axis=axis, mode=mode, **values, **flags)  # type: ignore[arg-type]
         if makes(made, statements[:count], setup):
             best = made, count
     return best
