@@ -18,6 +18,7 @@ from codegen.fields import (
     Number,
     PerAxis,
     Quantity,
+    Table,
     Text,
     fields_of,
 )
@@ -115,6 +116,8 @@ def _kind_words(field: Field) -> str:
             return "an expression"
         case ListOf():
             return "rows"
+        case Table():
+            return "a table of plain numbers"
         case Text():
             return "text"
         case _:
