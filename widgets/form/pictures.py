@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from PySide6.QtWidgets import QWidget
 
 from widgets.form.command_list import CommandList
+from widgets.form.curve_picture import CurvePicture
 from widgets.form.offers import Offers
 from widgets.form.path_picture import PathPicture
 
@@ -15,4 +16,6 @@ PICTURES: Mapping[str, Callable[[Offers], QWidget]] = {
     "CircularPath": PathPicture,
     "TangentPath": PathPicture,
     "LinearPath": PathPicture,
+    "ElectronicCam": CurvePicture,
+    "ContourMode": CurvePicture,
 }
