@@ -101,6 +101,8 @@ class Server:
 
     def _most(self, uart: Uart) -> int:
         """Characters the line can take now: two slices' worth, so that what the host still queues stays its own."""
+        if uart.held:
+            return max(0, UNPACED_BYTES - len(uart.line))  # an XON may be among them
         if not uart.clear_to_send:
             return 0
         if uart.baud is None:

@@ -46,7 +46,11 @@ class Uart:
     # ------------------------------------------------------------ host's side
 
     def receive(self, data: bytes, now: int) -> None:
-        """The host hands characters to the line at tick `now`."""
+        """The host hands characters to the line at tick `now`; its driver sends XON also where CTS holds the rest."""
+        if self.held and XON in data:
+            self.stopped = False
+            data = data.replace(bytes((XON,)), b"", 1)
+            self._start_outgoing(now)
         self.line.extend(data)
         self._start_incoming(now)
 
@@ -65,6 +69,11 @@ class Uart:
     def may_send(self) -> bool:
         """False while the host's RTS inhibits sending; without handshake nobody looks at it."""
         return self.host_ready or not self.handshake
+
+    @property
+    def held(self) -> bool:
+        """XOFF stopped the output, and CTS the input: only an XON helps."""
+        return self.xon_xoff and self.stopped and not self.clear_to_send
 
     @property
     def clear_to_send(self) -> bool:

@@ -208,3 +208,15 @@ def test_a_trace_slows_the_program_by_the_line() -> None:
     bench.wait(20_000)
     characters = len("001 N=N+1\r\n") + len("002 JP#A\r\n") + len("000 #A\r\n")
     assert bench.simulation.unit.state.variables["N"] / 65536 == pytest.approx((20 * 30 + 128) / characters, rel=0.15)
+
+
+def test_a_stop_comes_through_where_both_directions_are_held() -> None:
+    bench = Bench()
+    bench.load("#A\nWT 10\nJP#A")
+    bench.simulation.execute("#A")
+    bench.type("\x13")
+    bench.type("MG 1\r" * 200, ms=500)  # the answers fill the FIFO, then the commands the receive buffer: CTS holds
+    assert not bench.simulation.port.clear_to_send
+    bench.type("\x11\x1b\\ST\rST\r", ms=1000)  # the burst of STOP begins with XON
+    assert not bench.simulation.unit.running()
+    assert bench.simulation.port.clear_to_send
