@@ -211,6 +211,7 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     studio.actions["connect"].trigger()
     stage.go(30)
     yield "leaving", desk.question
+    yield from _unsaved(stage)
     desk.show_upload("#A\nPR 6370\nBG X\nEN\n")
     yield "upload", desk.upload
     desk.show_help("Program window")
@@ -220,6 +221,39 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "display-floating", studio.window.docks["Display"]
     studio.window.docks["Display"].setFloating(False)
     studio.desk.arrange("Program")
+
+
+def _unsaved(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """Work a crash left behind, and a file that another program has changed meanwhile."""
+    from datetime import datetime
+
+    from app.recovery import Recovery
+
+    studio = stage.studio
+    path = studio.session.path
+    assert path is not None
+    for hour, original in ((9, path), (11, None)):
+        Recovery(path.parent / "recovery").set_aside(studio.session.document, original, datetime(2026, 5, 4, hour, 30))
+    studio.actions["recover"].trigger()
+    assert studio.desk.unsaved is not None
+    yield "unsaved-work", studio.desk.unsaved
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("CUTTER", "SLITTER"), encoding="utf-8")
+    _until_bar(stage, True)
+    yield "file-changed", studio.window
+    path.write_text(text, encoding="utf-8")
+    _until_bar(stage, False)
+
+
+def _until_bar(stage: Stage, shown: bool) -> None:
+    """The file system tells of a change when it likes."""
+    from PySide6.QtTest import QTest
+
+    for _ in range(200):
+        if stage.studio.files.bar.isVisible() is shown:
+            return
+        QTest.qWait(20)
+    raise AssertionError("the change of the file was not told")
 
 
 if __name__ == "__main__":
