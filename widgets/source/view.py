@@ -105,11 +105,13 @@ class CodeView(QPlainTextEdit):
         """Number, top and height of each line on the screen."""
         block = self.firstVisibleBlock()
         top = self.blockBoundingGeometry(block).translated(self.contentOffset()).top()
-        while block.isValid() and top <= self.viewport().height():
+        number, bottom, count = block.blockNumber(), self.viewport().height(), len(self.lines)
+        while block.isValid() and top <= bottom:
             height = self.blockBoundingRect(block).height()
-            if block.blockNumber() < len(self.lines):
-                yield block.blockNumber(), top, height
+            if number < count:
+                yield number, top, height
             top += height
+            number += 1
             block = block.next()
 
     def resizeEvent(self, event: QResizeEvent) -> None:

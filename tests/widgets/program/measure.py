@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import random
 import sys
@@ -35,6 +36,8 @@ def shown(mode: str) -> tuple[Session, ProgramView]:
     view.show()
     view.set_view(mode)
     QApplication.processEvents()
+    gc.collect()
+    gc.freeze()  # what a whole run of tests has left behind is not looked through again and again
     return session, view
 
 
