@@ -19,6 +19,7 @@ from app.settings import Settings, data_folder, settings_path
 from app.which_model import known_models
 
 SAMPLE = "examples/wire-cutter.tlp"
+SETTLED_MS = 5000  # after this the start is over
 
 
 def run_studio(file: Path | None, connect: str = "ask") -> int:
@@ -44,8 +45,10 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
 
 def begin(studio: Studio, file: Path | None, connect: str) -> None:
     """What the command line asked for, once the window is there."""
-    gc.freeze()
-    gc.enable()
+    if not gc.isenabled():  # as `app.__main__` left it: what is loaded by now is no garbage
+        gc.freeze()
+        gc.enable()
+        QTimer.singleShot(SETTLED_MS, gc.freeze)  # nor what the first connection loads: STOP never waits for a search
     studio.program.tree.setFocus()
     if file is not None:
         studio.files.open_path(file)
