@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
 
 SETTLE_MS = 150  # writers work in several strokes: looked at when they pause
+GLANCE_MS = 2000  # not every folder tells of its changes (network drives do not)
 
 
 class Disk(Enum):
@@ -32,6 +33,9 @@ class FileOnDisk(QObject):
         self._seen = ""
         self._settle = QTimer(self, singleShot=True, interval=SETTLE_MS)
         self._settle.timeout.connect(self.look)
+        self._glance = QTimer(self, interval=GLANCE_MS)
+        self._glance.timeout.connect(self._look_for_a_change)
+        self._signature = _signature(None)
         self._watcher = QFileSystemWatcher(self)
         self._watcher.fileChanged.connect(lambda _: self._settle.start())
         self._watcher.directoryChanged.connect(lambda _: self._settle.start())
@@ -43,11 +47,21 @@ class FileOnDisk(QObject):
         self.fingerprint = now if known is None else known
         self._seen, self.state = now, self._judge(now)
         self._watch()
+        self._signature = _signature(path)
+        if path is None:
+            self._glance.stop()
+        else:
+            self._glance.start()
         self.changed.emit()
+
+    def _look_for_a_change(self) -> None:
+        if _signature(self.path) != self._signature:
+            self._settle.start()
 
     def look(self) -> Disk:
         """Looks now; tells when it is not as before."""
         if self.path is not None:
+            self._signature = _signature(self.path)
             now = fingerprint_of(self.path)
             if now != self._seen:
                 self._seen, self.state = now, self._judge(now)
@@ -70,6 +84,15 @@ class FileOnDisk(QObject):
                 self._watcher.removePaths(old)
             if names:
                 self._watcher.addPaths(names)
+
+
+def _signature(path: Path | None) -> tuple[int, int, int]:
+    """What is cheap to ask of a file: time of its last change, size, which file it is; zeros when there is none."""
+    try:
+        found = path.stat() if path is not None else None
+    except OSError:
+        found = None
+    return (found.st_mtime_ns, found.st_size, found.st_ino) if found is not None else (0, 0, 0)
 
 
 def fingerprint_of(path: Path) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from PySide6 import QtCore, QtGui, QtWidgets
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent
 
@@ -11,11 +12,24 @@ KEY = Qt.Key.Key_F12
 SEEN = frozenset({QEvent.Type.KeyPress, QEvent.Type.KeyRelease, QEvent.Type.ShortcutOverride})
 
 
+def make_types() -> None:
+    """Makes every type of Qt known to Python before a filter sees objects of them.
+
+    PySide makes its types when they are first met. Met inside an event filter, making one type can begin to make
+    another, which ends the whole process (PySide 6.8 to 6.11); most of them are met soon anyway.
+    """
+    for module in (QtCore, QtGui, QtWidgets):
+        for name in dir(module):
+            if name.startswith("Q"):
+                getattr(module, name)
+
+
 class StopKey(QObject):
     """An event filter of the whole application, always the first one."""
 
     def __init__(self, application: QCoreApplication, stop: Callable[[], None]) -> None:
         super().__init__(application)
+        make_types()
         self._application = application
         self._stop = stop
         self.stay_first()

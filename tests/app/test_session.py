@@ -9,6 +9,7 @@ from datetime import datetime
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QFileSystemWatcher
 from pytestqt.qtbot import QtBot
 
 from app.disk import Disk
@@ -249,6 +250,16 @@ def test_a_change_on_disk_is_noticed(qtbot: QtBot, session: Session, tmp_path: P
     assert not session.dirty
     session.undo()  # what was open before the reload is still there
     assert session.document.program.name == ""
+
+
+def test_a_change_is_noticed_where_the_folder_tells_nothing(qtbot: QtBot, session: Session, tmp_path: Path) -> None:
+    path = tmp_path / "cutter.tlp"
+    session.save_as(path)
+    for watcher in session.findChildren(QFileSystemWatcher):  # as on a network drive
+        watcher.blockSignals(True)
+    with qtbot.waitSignal(session.disk_changed, timeout=8000):
+        files.save(path, Document(Program(name="OTHER")))
+    assert session.on_disk is Disk.CHANGED
 
 
 def test_its_own_saving_is_not_taken_for_somebody_elses(qtbot: QtBot, session: Session, tmp_path: Path) -> None:

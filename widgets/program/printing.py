@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Iterator
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QMarginsF, Qt, Signal
-from PySide6.QtGui import QPageLayout, QPageSize, QPdfWriter, QTextDocument
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QMarginsF, QRectF, QSizeF, Qt, QUrl, Signal
+from PySide6.QtGui import QDesktopServices, QPageLayout, QPageSize, QPainter, QPaintEvent, QPdfWriter, QTextDocument
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from codegen.document import Document
 from codegen.models import MODELS
@@ -19,11 +19,11 @@ from widgets.parts.look import look
 from widgets.program.node import TITLES
 from widgets.program.words import Words
 
-if TYPE_CHECKING:
-    from PySide6.QtPrintSupport import QPrinter
-
 PDF = "PDF files (*.pdf)"
 RESOLUTION = 600  # dots an inch
+PAGE = QSizeF(794, 1123)  # A4 at 96 dots an inch
+MARGIN = 76.0  # 20 mm
+GAP = 12  # between pages on the screen
 INDENT = "&nbsp;" * 5  # for each step inwards
 STYLE = """
 body, h1, h2, p, td, pre { color: #000000; }
@@ -83,7 +83,9 @@ def _rows(steps: Steps, words: Words, depth: int) -> Iterator[str]:
 def _pages(html: str) -> QTextDocument:
     pages = QTextDocument()
     pages.setDefaultStyleSheet(STYLE)
+    pages.setDocumentMargin(MARGIN)
     pages.setHtml(html)
+    pages.setPageSize(PAGE)
     return pages
 
 
@@ -101,61 +103,84 @@ def write_pdf(pages: QTextDocument, path: Path) -> str:
 
 
 def _layout() -> QPageLayout:
-    margins = QMarginsF(5, 5, 5, 5)  # and the document leaves 20 mm
+    margins = QMarginsF(0, 0, 0, 0)  # the document has its own
     return QPageLayout(
         QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait, margins, QPageLayout.Unit.Millimeter
     )
 
 
+class Sheets(QWidget):
+    """The pages below each other, drawn where they are in sight."""
+
+    def __init__(self, pages: QTextDocument) -> None:
+        super().__init__()
+        self._pages = pages
+        self.setAccessibleName("Pages")
+        width, height = round(PAGE.width()), round(PAGE.height()) + GAP
+        self.setFixedSize(width, height * pages.pageCount())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        step = round(PAGE.height()) + GAP
+        first, last = event.rect().top() // step, event.rect().bottom() // step
+        for number in range(first, min(last, self._pages.pageCount() - 1) + 1):
+            painter.save()
+            painter.translate(0, number * step)
+            painter.fillRect(QRectF(0, 0, PAGE.width(), PAGE.height()), Qt.GlobalColor.white)
+            painter.translate(0, -number * PAGE.height())
+            self._pages.drawContents(painter, QRectF(0, number * PAGE.height(), PAGE.width(), PAGE.height()))
+            painter.restore()
+
+
 class PrintPreview(QDialog):
-    """The pages as they will come out; Print, or save as PDF. Not modal."""
+    """The pages as they will come out; saved as PDF, or opened in the PDF viewer of the system, which prints.
+
+    The library of Qt that prints itself is left alone: once it is loaded, its types crash the program under an event
+    filter, and the dialog of the system is native on some systems, where STOP does not hear its key.
+    """
 
     said = Signal(str)
 
     def __init__(self, title: str, pages: QTextDocument, name: str, parent: QWidget | None = None) -> None:
-        from PySide6.QtPrintSupport import QPrinter, QPrintPreviewWidget  # late: few print, all start
-
         super().__init__(parent)
         self.setModal(False)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(title)
         self.setProperty("helpPage", "Program window")
         self.pages, self.suggested = pages, Path.home() / f"{name or 'program'}.pdf"
-        self.printer: QPrinter = QPrinter(QPrinter.PrinterMode.HighResolution)
-        self.printer.setPageLayout(_layout())
-        self.preview = QPrintPreviewWidget(self.printer)
-        self.preview.setAccessibleName("Pages")
-        self.preview.paintRequested.connect(self.pages.print_)
-        self.count = QLabel()
+        self.sheets = QScrollArea()
+        self.sheets.setWidget(Sheets(pages))
+        self.sheets.setAlignment(Qt.AlignmentFlag.AlignHCenter)
+        count = pages.pageCount()
+        self.count = QLabel("1 page" if count == 1 else f"{count} pages")
         self.count.setProperty("role", "quiet")
-        self.preview.previewChanged.connect(self._show_count)
         buttons = QHBoxLayout()
         buttons.addWidget(self.count, 1)
         self.buttons = {
             text: self._button(text, action)
             for text, action in (
-                ("Print…", self.choose_printer),
+                ("Print", self.print_out),
                 ("Save as PDF…", self.choose_file),
                 ("Close", self.accept),
             )
         }
+        self.buttons["Print"].setToolTip("Opens the pages in the PDF viewer of this computer, which prints them")
         for button in self.buttons.values():
             buttons.addWidget(button)
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
-        column.addWidget(self.preview, 1)
+        column.addWidget(self.sheets, 1)
         column.addLayout(buttons)
-        self.resize(640, 720)
+        self.resize(860, 760)
 
-    def choose_printer(self) -> None:
-        """The system's dialog of printers."""
-        from PySide6.QtPrintSupport import QPrintDialog
-
-        dialog = QPrintDialog(self.printer, self)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.accepted.connect(self._print)
-        dialog.open()
+    def print_out(self) -> None:
+        """Hands the pages to the PDF viewer."""
+        path = Path(tempfile.mkdtemp(prefix="twoletter-print-")) / self.suggested.name
+        failed = write_pdf(self.pages, path)
+        if not failed and not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
+            failed = "There is no program for PDF files on this computer; save as PDF and print it elsewhere."
+        self.said.emit(failed or "The pages are open in the PDF viewer; print them there.")
 
     def choose_file(self) -> None:
         """Asks where the PDF goes."""
@@ -164,14 +189,6 @@ class PrintPreview(QDialog):
     def save(self, path: Path) -> None:
         """Writes the PDF and says so."""
         self.said.emit(write_pdf(self.pages, path) or f"Saved {path.name}")
-
-    def _print(self) -> None:
-        self.pages.print_(self.printer)
-        self.said.emit(f"Sent to {self.printer.printerName() or 'the printer'}")
-
-    def _show_count(self) -> None:
-        count = self.preview.pageCount()
-        self.count.setText("1 page" if count == 1 else f"{count} pages")
 
     def _button(self, text: str, action: Callable[[], object]) -> QPushButton:
         button = QPushButton(text)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
+from types import SimpleNamespace
 
-from PySide6.QtCore import Qt
+import pytest
+from PySide6.QtCore import Qt, QUrl
 from pytestqt.qtbot import QtBot
 
 from codegen.instructions import Comment, Output, Repeat, SingleAxisMove, Wait
@@ -51,7 +51,7 @@ def test_ctrl_p_opens_a_preview_that_saves_as_pdf(window: Window, qtbot: QtBot, 
     assert isinstance(preview, PrintPreview)
     assert preview.windowTitle() == "Print program"
     assert not preview.isModal()
-    qtbot.waitUntil(lambda: preview.count.text() == "1 page")
+    assert preview.count.text() == "1 page"
     path = tmp_path / "cutter.pdf"
     with qtbot.waitSignal(window.view.said) as said:
         preview.save(path)
@@ -64,6 +64,26 @@ def test_ctrl_p_opens_a_preview_that_saves_as_pdf(window: Window, qtbot: QtBot, 
     window.view.preview.close()
 
 
+def test_print_opens_the_pages_in_the_pdf_viewer(window: Window, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    some(window)
+    qtbot.keyClick(in_front(window), Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
+    preview = window.view.preview
+    assert isinstance(preview, PrintPreview)
+    opened: list[bytes] = []
+
+    def viewer(url: QUrl) -> bool:
+        opened.append(Path(url.toLocalFile()).read_bytes())
+        return len(opened) == 1  # the second time there is none
+
+    monkeypatch.setattr("widgets.program.printing.QDesktopServices", SimpleNamespace(openUrl=viewer))
+    for words in ("open in the PDF viewer", "no program for PDF files"):
+        with qtbot.waitSignal(window.view.said) as said:
+            qtbot.mouseClick(preview.buttons["Print"], Qt.MouseButton.LeftButton)
+        assert words in said.args[0]
+    assert all(data.startswith(b"%PDF-") for data in opened)
+    preview.close()
+
+
 def test_a_thousand_steps_take_many_pages(window: Window, tmp_path: Path) -> None:
     fill(window, *(Wait(time=str(number + 1)) for number in range(1000)))
     path = tmp_path / "long.pdf"
@@ -74,9 +94,3 @@ def test_a_thousand_steps_take_many_pages(window: Window, tmp_path: Path) -> Non
 def test_a_file_that_cannot_be_written_is_one_sentence(window: Window, tmp_path: Path) -> None:
     pages = program_pages(window.session.document, window.view.words, "2026-11-22")
     assert write_pdf(pages, tmp_path) == f"{tmp_path.name} cannot be written: Is a directory"
-
-
-def test_the_start_does_not_import_what_prints() -> None:
-    code = "import sys, app.compose; print('PySide6.QtPrintSupport' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
