@@ -12,15 +12,32 @@ KEY = Qt.Key.Key_F12
 SEEN = frozenset({QEvent.Type.KeyPress, QEvent.Type.KeyRelease, QEvent.Type.ShortcutOverride})
 
 
+# values, not objects: a filter never meets them (a test looks whether that is so)
+VALUES = (
+    "QAccessible", "QBrush", "QByteArray", "QCbor", "QColor", "QConical", "QDataStream", "QDate", "QDir", "QEasing",
+    "QFont", "QGlyph", "QIcon", "QImage", "QJson", "QLocale", "QMatrix", "QMeta", "QOpenGLExtra", "QOpenGLFunctions",
+    "QPageLayout", "QPageR", "QPageSize", "QPainter", "QPaintEngine", "QPalette", "QPixel", "QPixmap", "QRandom",
+    "QRegular", "QRhi", "QShader", "QStandardPaths", "QString", "QStyleOption", "QSurfaceFormat", "QTextBlock",
+    "QTextChar", "QTextCursor", "QTextFormat", "QTextLength", "QTextOption", "QTextStream", "QUrl", "QUuid", "QVector",
+    "QXml", "QGradient", "QCryptographic", "QFutureInterface", "QTextBoundary", "QTextLayout", "QTextLine", "QLibraryI",
+    "QCommandLineP", "QCommandLineO", "QRawFont", "QStyleHintReturn", "QSysInfo", "QTransform", "QBluetooth",
+)  # fmt: skip
+OBJECTS = (
+    "QTextBlockGroup", "QFontComboBox", "QFontDialog", "QColorDialog", "QDateEdit", "QDateTimeEdit", "QStringListModel",
+    "QIconDragEvent",
+    "QRegularExpressionValidator", "QRhiWidget",
+)  # fmt: skip
+
+
 def make_types() -> None:
-    """Makes every type of Qt known to Python before a filter sees objects of them.
+    """Makes the types of Qt's objects and events known to Python before a filter sees any of them.
 
     PySide makes its types when they are first met. Met inside an event filter, making one type can begin to make
     another, which ends the whole process (PySide 6.8 to 6.11); most of them are met soon anyway.
     """
     for module in (QtCore, QtGui, QtWidgets):
         for name in dir(module):
-            if name.startswith("Q"):
+            if name.startswith("Q") and (name in OBJECTS or not name.startswith(VALUES)):
                 getattr(module, name)
 
 

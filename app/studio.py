@@ -54,6 +54,11 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
         studio.files.open_path(file)
     elif not studio.desk.offer_recovery():
         studio.session.open_copy(resources.path(SAMPLE))
+    QTimer.singleShot(0, lambda: reach(studio, connect))  # what the person has clicked meanwhile goes first
+
+
+def reach(studio: Studio, connect: str) -> None:
+    """Connects as the command line asked for."""
     way, _, what = connect.partition(":")
     if way == "simulator":
         studio.start.use_simulator(what)

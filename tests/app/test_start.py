@@ -39,6 +39,7 @@ def press(button: QPushButton) -> None:
 def test_without_a_known_port_the_studio_opens_on_the_simulator_with_the_sample(stage: Stage) -> None:
     use(stage, NEW)
     begin(stage.studio, None, "ask")
+    stage.go(1)
     assert stage.controllers[-1].kind is Kind.SIMULATOR
     assert [controller.kind for controller in stage.controllers] == [Kind.SIMULATOR]
     assert stage.studio.session.document.program.name == "CUTTER"
@@ -49,6 +50,7 @@ def test_without_a_known_port_the_studio_opens_on_the_simulator_with_the_sample(
 def test_a_known_port_is_tried_first_and_taken_when_it_answers(stage: Stage) -> None:
     use(stage, KNOWN)
     begin(stage.studio, None, "ask")
+    stage.go(1)
     assert [controller.kind for controller in stage.controllers] == [Kind.MACHINE]
     stage.until(lambda: stage.controller is stage.controllers[0])
     assert stage.controller.state is State.READY
@@ -61,6 +63,7 @@ def test_a_silent_port_ends_in_the_welcome_window_never_in_the_simulator(stage: 
     use(stage, KNOWN)
     stage.silent.add(KNOWN.device)
     begin(stage.studio, None, "ask")
+    stage.go(1)
     stage.go()
     assert stage.studio.search.busy
     stage.until(lambda: not stage.studio.search.busy, 7.0)
@@ -164,11 +167,13 @@ def test_at_start_the_search_can_be_left_out(stage: Stage) -> None:
     use(stage, KNOWN)
     stage.studio.settings.set("look_at_start", False)
     begin(stage.studio, None, "ask")
+    stage.go(1)
     assert [controller.kind for controller in stage.controllers] == [Kind.SIMULATOR]
 
 
 def test_the_simulator_hangs_on_a_line_as_fast_as_is_set(stage: Stage) -> None:
     begin(stage.studio, None, "simulator:ssc3")
+    stage.go(1)
     stage.until(lambda: stage.controller.state is State.READY)
     stage.go()
     assert stage.controller.line.baud == 19200
@@ -235,6 +240,7 @@ def test_another_connection_closes_the_one_before(stage: Stage) -> None:
 )
 def test_what_the_command_line_asks_for(stage: Stage, text: str, kind: str) -> None:
     begin(stage.studio, None, text)
+    stage.go(1)
     assert stage.controllers[-1].kind == kind
 
 

@@ -105,10 +105,11 @@ class Palette(QWidget):
 
     def recolour(self) -> None:
         """Takes the colours of the theme that is on now."""
+        dots = {title: _dot(look().group(title)) for title in self.groups}
         for kind in ALL:
-            self.items[kind.title].setIcon(0, _dot(look().group(str(kind.group))))
+            self.items[kind.title].setIcon(0, dots[str(kind.group)])
         for title, item in self.groups.items():
-            item.setIcon(0, _dot(look().group(title)))
+            item.setIcon(0, dots[title])
 
     def changeEvent(self, event: QEvent) -> None:
         """Follows light and dark."""
