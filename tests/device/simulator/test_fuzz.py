@@ -106,7 +106,7 @@ def golden_of_a_new_one(model: str) -> list[str]:
 
 def drained(bench: Bench) -> None:
     """Waits until the controller has taken what is on the line; where nothing helps (an XOFF, a question) it leaves."""
-    for turn in range(80):
+    for turn in range(320):  # RS and a reset take a second
         if not bench.simulation.uarts[0].line:
             return
         bench.wait(5)
@@ -135,7 +135,7 @@ def as_good_as_new(bench: Bench) -> None:
     for signal in SIGNALS:
         bench.simulation.stimulus(signal, 1)
     recover(bench)
-    bench.type("\x12\x13", ms=3000)
+    bench.type("\x12\x13", ms=13_000)  # a motor that ran away comes to rest
     recover(bench)
     bench.type("TC1\r", ms=50)
     assert golden(bench) == golden_of_a_new_one(bench.simulation.unit.model.name)
