@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import threading
 from enum import Enum
 from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
 
 SETTLE_MS = 150  # writers work in several strokes: looked at when they pause
-GLANCE_MS = 2000  # not every folder tells of its changes (network drives do not)
+GLANCE_MS = 1000  # not every folder tells of its changes (network drives do not)
 
 
 class Disk(Enum):
@@ -36,6 +37,8 @@ class FileOnDisk(QObject):
         self._glance = QTimer(self, interval=GLANCE_MS)
         self._glance.timeout.connect(self._look_for_a_change)
         self._signature = _signature(None)
+        self._asking: threading.Thread | None = None
+        self._told: tuple[Path | None, tuple[int, int, int]] | None = None  # what was found, for the next glance
         self._watcher = QFileSystemWatcher(self)
         self._watcher.fileChanged.connect(lambda _: self._settle.start())
         self._watcher.directoryChanged.connect(lambda _: self._settle.start())
@@ -55,8 +58,17 @@ class FileOnDisk(QObject):
         self.changed.emit()
 
     def _look_for_a_change(self) -> None:
-        if _signature(self.path) != self._signature:
+        """Asks beside the window's thread: a network drive that hangs must not hold up STOP."""
+        if self._asking is not None and self._asking.is_alive():
+            return
+        if self._told is not None and self._told[0] == self.path and self._told[1] != self._signature:
             self._settle.start()
+        self._told = None
+        self._asking = threading.Thread(target=self._ask, args=(self.path,), name="file on disk", daemon=True)
+        self._asking.start()
+
+    def _ask(self, path: Path | None) -> None:
+        self._told = (path, _signature(path))
 
     def look(self) -> Disk:
         """Looks now; tells when it is not as before."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
@@ -12,7 +11,7 @@ from pathlib import Path
 from PySide6.QtCore import QLockFile
 
 from codegen.document import Document
-from codegen.files import FileUnreadable, dumps, loads
+from codegen.files import FileUnreadable, dumps, loads, save_text
 
 SUFFIX = ".recovery"
 
@@ -54,12 +53,12 @@ class Recovery:
 
     def write(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
         """Keeps `document`; the former copy stays until the new one is complete on disk."""
-        write_whole(self.file, _kept(document, original, now, fingerprint))
+        save_text(self.file, _kept(document, original, now, fingerprint))
 
     def set_aside(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
         """Keeps unsaved work that makes room for other work, among what is found later."""
         file, lock = _free(self.folder)
-        write_whole(file, _kept(document, original, now, fingerprint))
+        save_text(file, _kept(document, original, now, fingerprint))
         lock.unlock()
 
     def clear(self) -> None:
@@ -97,16 +96,6 @@ class Recovery:
 def _kept(document: Document, original: Path | None, now: datetime, fingerprint: str) -> str:
     kept = {"original": str(original or ""), "fingerprint": fingerprint, "when": now.isoformat()}
     return json.dumps({**kept, "document": dumps(document)})
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Writes a file so that after a crash it is either the old one or the new one."""
-    beside = path.with_name(path.name + ".part")
-    with beside.open("w", encoding="utf-8", newline="\n") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    beside.replace(path)
 
 
 def _free(folder: Path) -> tuple[Path, QLockFile]:

@@ -130,9 +130,9 @@ def backup_steps(
     )
 
 
-def _ongoing(job: Job[Backup] | Job[Restored], phase: str, done: int, total: int) -> None:
+def _ongoing(job: Job[Backup], phase: str, done: int, total: int) -> None:
     if job.cancelled:
-        raise LinkError(f"Cancelled at the {phase}.")
+        raise LinkError(f"Backup cancelled at the {phase}; nothing was changed in the controller.")
     job.show(phase, done, total)
 
 
@@ -186,7 +186,14 @@ def restore_steps(c: Controller, backup: Backup, job: Job[Restored]) -> Steps[Re
         raise NotAllowed(f"Not restored, the backup does not fit: {'; '.join(reasons)}.")
     refused: list[str] = []
     for number, line in enumerate(lines := list(lines_of(backup, model))):
-        _ongoing(job, "values", number, len(lines))
+        if job.cancelled and not number:
+            raise LinkError("Restore cancelled; nothing was changed in the controller.")
+        if job.cancelled:
+            raise LinkError(
+                f"Restore cancelled after {number} of {len(lines)} lines: the motors are off and parts of the backup "
+                "are in the controller; restore once more."
+            )
+        job.show("values", number, len(lines))
         refused += yield from _put(c, line)
     job.show("program", 0, 1)
     inner: Job[Downloaded] = Job(lambda each: job.show("program", each.done, each.total))

@@ -26,7 +26,7 @@ from device.backup import (
     save,
 )
 from device.download import Job
-from device.tasks import NotAllowed, Priority
+from device.tasks import LinkError, NotAllowed, Priority
 from tests.rig import Rig
 
 PROGRAM = "#A\nDM P[3]\nLEN=1\nCOUNT=COUNT+1\nEN"
@@ -102,6 +102,19 @@ def test_a_restore_makes_another_controller_the_same() -> None:
     assert again.program == PROGRAM and again.variables["LEN"] == backup.variables["LEN"]
     assert again.motors_on == ""  # a restored controller holds no torque before a person says so
     assert "motors are off" in done.sentence and "nothing is burned" in done.sentence
+
+
+def test_a_cancelled_restore_says_what_to_do() -> None:
+    backup = backed_up(changed_controller())
+    other = Rig(model="ssc2")
+    other.ready()
+    job: Job[Restored] = Job()
+    future = other.controller.run(restore_steps(other.controller, backup, job), Priority.DOWNLOAD, "download")
+    other.until(lambda: job.done >= 3, 60)
+    job.cancel()
+    other.until(future.done, 60)
+    with pytest.raises(LinkError, match=r"cancelled after \d+ of \d+ lines: the motors are off.*restore once more"):
+        future.result()
 
 
 def test_another_model_is_refused_with_the_reasons() -> None:
