@@ -73,7 +73,8 @@ def test_python_and_the_controller_agree(found: list[Expression]) -> None:
         if not lines or len(lines[0]) > 70:
             continue
         bench.ask(lines[0])
-        assert Fraction(bench.ask("MG R{F10.4}")) == Fraction(round(wanted * 10000), 10000), text
+        shown = Fraction(bench.ask("MG R{F10.4}"))
+        assert abs(shown - wanted) <= Fraction(1, 20000), text  # the nearest of four digits; a tie has two of them
 
 
 @pytest.mark.parametrize(
