@@ -1,155 +1,47 @@
 """How one machine is configured: controller model, axes with their units and limits, names, connection."""
 
-# ruff: noqa: RUF009  (value() declares a field as dataclasses.field does)
-
 from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Mapping
-from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
 from codegen import conversion
-from codegen.conversion import CALIBRATED_US, LARGEST, Sent
-from codegen.fields import AXES, Choice, Context, Dimension, Flag, Number, Text, fields_of, is_shown, value
+from codegen.conversion import CALIBRATED_US, Sent
+from codegen.fields import AXES, Context, Dimension, Number, Text, fields_of, is_shown, value
 from codegen.models import MODELS, Model
 from codegen.numbers import parse_number, plain
+from codegen.setup_axis import (
+    ENCODER_WORDS,
+    MOTOR_WORDS,
+    SYMBOLS,
+    Axis,
+    EncoderType,
+    MotorType,
+    Unit,
+    ratio_of,
+)
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.nodes import Broken
 from codegen.twoletter.parse import parse
 
-
-class Unit(StrEnum):
-    """Units of length or angle a machine can be set up in."""
-
-    INCH = "inch"
-    FOOT = "foot"
-    MM = "mm"
-    CM = "cm"
-    METRE = "m"
-    DEGREE = "degree"
-    COUNT = "count"
-    OWN = "own"
-
-
-SYMBOLS = {Unit.INCH: "in", Unit.FOOT: "ft", Unit.MM: "mm", Unit.CM: "cm", Unit.METRE: "m", Unit.DEGREE: "deg",
-           Unit.COUNT: "counts"}  # fmt: skip
-
-
-class MotorType(StrEnum):
-    SERVO = "servo"
-    SERVO_REVERSED = "servo_reversed"
-    STEPPER_LOW = "stepper_low"
-    STEPPER_HIGH = "stepper_high"
-    STEPPER_LOW_REVERSED = "stepper_low_reversed"
-    STEPPER_HIGH_REVERSED = "stepper_high_reversed"
-
-
-class EncoderType(StrEnum):
-    QUADRATURE = "quadrature"
-    QUADRATURE_REVERSED = "quadrature_reversed"
-    PULSE = "pulse"
-    PULSE_REVERSED = "pulse_reversed"
-
-
-MOTOR_WORDS = {
-    MotorType.SERVO: "Servo",
-    MotorType.SERVO_REVERSED: "Servo, reversed",
-    MotorType.STEPPER_LOW: "Stepper, active low",
-    MotorType.STEPPER_HIGH: "Stepper, active high",
-    MotorType.STEPPER_LOW_REVERSED: "Stepper, active low, reversed",
-    MotorType.STEPPER_HIGH_REVERSED: "Stepper, active high, reversed",
-}
-ENCODER_WORDS = {
-    EncoderType.QUADRATURE: "Quadrature",
-    EncoderType.QUADRATURE_REVERSED: "Quadrature, reversed",
-    EncoderType.PULSE: "Pulse and direction",
-    EncoderType.PULSE_REVERSED: "Pulse and direction, reversed",
-}
-
-
-def _number(label: str, help: str, low: float = -LARGEST, high: float = LARGEST, **more: Any) -> Number:
-    return Number(label=label, help=help, low=low, high=high, literal=True, required=False, **more)
-
-
-@dc.dataclass(frozen=True, kw_only=True)
-class Axis:
-    """One axis: unit and scale, motor and encoder, gains and limits. Numbers are kept as typed."""
-
-    unit: Unit = value(Choice(label="Unit", kind=Unit, help="The unit of positions and distances."), Unit.INCH)
-    unit_name: str = value(
-        Text(label="Own unit", most=12, when={"unit": Unit.OWN}, help="The name of your own unit, for example turns."),
-        "",
-    )
-    counts_per_unit: str = value(
-        _number("Counts per unit", "Encoder counts (or steps) in one unit of travel.", 0.000001), ""
-    )
-    motor: MotorType = value(
-        Choice(label="Motor", kind=MotorType, words=MOTOR_WORDS, help="The kind of motor."), MotorType.SERVO
-    )
-    main_encoder: EncoderType = value(
-        Choice(label="Main encoder", kind=EncoderType, words=ENCODER_WORDS, help="The encoder the loop is closed on."),
-        EncoderType.QUADRATURE,
-    )
-    aux_encoder: EncoderType = value(
-        Choice(label="Auxiliary encoder", kind=EncoderType, words=ENCODER_WORDS, help="The second encoder, if any."),
-        EncoderType.QUADRATURE,
-    )
-    kp: str = value(_number("Proportional gain", "Stiffness of the loop.", 0, 1023.875, step="0.125"), "")
-    ki: str = value(_number("Integral gain", "Removes a lasting error.", 0, 2047.875, step="0.0078125"), "")
-    kd: str = value(_number("Derivative gain", "Damping of the loop.", 0, 4095.875, step="0.125"), "")
-    fv: str = value(_number("Velocity feed-forward", "Volts in proportion to the speed.", 0, 8191, step="1"), "")
-    fa: str = value(
-        _number("Acceleration feed-forward", "Volts in proportion to the acceleration.", 0, 8191, step="0.25"), ""
-    )
-    smoothing: str = value(_number("Smoothing", "0 (none) to 255 (most).", 0, 255), "")
-    forward_limit: str = value(_number("Forward limit", "Furthest position forward, in units; empty = off."), "")
-    reverse_limit: str = value(_number("Reverse limit", "Furthest position backward, in units; empty = off."), "")
-    error_limit: str = value(_number("Following error", "Largest following error allowed, in units.", 0), "")
-    off_on_error: bool = value(
-        Flag(label="Motor off on error", help="Switch the motor off when the following error is too large."), True
-    )
-    torque_limit: str = value(_number("Torque limit", "Largest motor command.", 0, 9.9982, suffix="V"), "")
-    integrator_limit: str = value(_number("Integrator limit", "Largest integrator output.", 0, 9.9982, suffix="V"), "")
-    offset: str = value(_number("Offset", "Voltage added to the motor command.", -9.9982, 9.9982, suffix="V"), "")
-    mirrored: bool = value(
-        Flag(label="Drawn the other way", help="Pictures of paths show this axis pointing left or down."), False
-    )
-    maximum_speed: str = value(
-        _number("Top speed", "Fastest speed allowed, in units/s; empty = the controller's.", 0), ""
-    )
-    maximum_acceleration: str = value(
-        _number("Top acceleration", "Hardest acceleration allowed, in units/s²; empty = the controller's.", 0), ""
-    )
-
-    @property
-    def scale(self) -> Fraction:
-        """Counts in one unit; 1 when it was never set up."""
-        number = parse_number(self.counts_per_unit)
-        return number if number is not None and number > 0 else Fraction(1)
-
-    @property
-    def scale_problem(self) -> str | None:
-        """Why the scale cannot be used; nothing may be converted with it then."""
-        number = parse_number(self.counts_per_unit)
-        usable = not self.counts_per_unit.strip() or (number is not None and number > 0)
-        return None if usable else "the counts per unit in the setup are no number above 0"
-
-    @property
-    def is_set_up(self) -> bool:
-        """Whether somebody entered the scale (an axis in counts needs none)."""
-        return self.unit is Unit.COUNT or self.counts_per_unit.strip() != ""
-
-    @property
-    def is_stepper(self) -> bool:
-        return self.motor not in (MotorType.SERVO, MotorType.SERVO_REVERSED)
-
-    @property
-    def symbol(self) -> str:
-        """The unit as it stands behind a number."""
-        return SYMBOLS.get(self.unit) or self.unit_name or "units"
+__all__ = [
+    "ENCODER_WORDS",
+    "MOTOR_WORDS",
+    "SYMBOLS",
+    "Axis",
+    "EncoderType",
+    "Finding",
+    "MotorType",
+    "Setup",
+    "Unit",
+    "never_set_up",
+    "ratio_of",
+    "setup_problems",
+    "setup_values",
+]
 
 
 @dc.dataclass(frozen=True, kw_only=True)
@@ -168,6 +60,8 @@ class Setup:
     address: str = ""
     baud: str = ""
     serial_number: str = ""
+    plate: str = ""  # what the type plate says: `SSC47`, or the part number
+    notes: str = value(Text(label="Notes", required=False, lines=True, help="Anything worth knowing."), "")
 
     def __hash__(self) -> int:
         known: int | None = self.__dict__.get("_known_hash")

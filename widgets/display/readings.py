@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from codegen.numbers import parse_number
 from widgets.display.position import AxisShown
 from widgets.parts.units import NOTHING, scale_of, shown
 
@@ -88,7 +87,7 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
 
 def unit_of(axis: Axis) -> str:
     """The unit of the numbers that are shown: counts, whatever was chosen, until it is said how many make a unit."""
-    return axis.symbol if parse_number(axis.counts_per_unit) is not None else "counts"
+    return axis.symbol if axis.counts_per_unit.strip() and not axis.scale_problem else "counts"
 
 
 def rate_words(rate_hz: float) -> str:
