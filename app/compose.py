@@ -33,10 +33,12 @@ from app.which_model import WhichModel
 from app.window import BOTTOM, LEFT, RIGHT, Window
 from codegen.document import Document
 from codegen.generate import Listing
+from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
 from widgets.panel import Panel
+from widgets.plane.panel import PlanePanel
 from widgets.program.view import ProgramView
 from widgets.simulator.panel import SimulatorPanel
 from widgets.terminal.terminal import TerminalPanel
@@ -66,6 +68,7 @@ class Studio(QObject):
         self.window = Window(self.program)
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
+        self.plane = PlanePanel(clock=clock)
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.right = RightMachine(self.connection, self.session, self.desk.ask)
@@ -82,7 +85,14 @@ class Studio(QObject):
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
-        self.panels: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
+        self.panels: tuple[Panel, ...] = (
+            self.display,
+            self.messages,
+            self.plane,
+            self.terminal,
+            self.simulator,
+            self.ear,
+        )
         self._fill_window()
         self._join()
         self._attach(self.connection.controller)
@@ -116,6 +126,7 @@ class Studio(QObject):
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
             "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
+            **{f"execute_{each}": partial(run.execute_slowly, each) for each in PERCENTS},
             "stop": self.connection.stop, "help": desk.help_for_focus,
             "about": self._about,
         }  # fmt: skip
@@ -124,6 +135,7 @@ class Studio(QObject):
         window, header = self.window, self.window.header
         window.add("Instructions", self.program.instructions, LEFT)
         window.add("Display", self.display, RIGHT, moves=True)
+        window.add("X-Y view", self.plane, RIGHT)
         window.add("Simulator", self.simulator, RIGHT, moves=True)
         window.add("Inspector", self.program.inspector, RIGHT)
         window.add("Problems", self.program.problems, BOTTOM)
@@ -132,6 +144,7 @@ class Studio(QObject):
         self.actions.fill_menus(header.menus, window.submenus)
         self.actions.fill_toolbar(header.toolbar, MAIN)
         self.actions.fill_toolbar(window.run_bar.toolbar, RUN)
+        self.actions.open_below(window.run_bar.toolbar, "execute", window.submenus["slow"])
         self.desk.tick_theme(self.actions)
 
     def _join(self) -> None:

@@ -117,6 +117,7 @@ def scenes(folder: Path, theme: str) -> Iterator[tuple[str, QWidget]]:
         yield f"panel-{dock.lower()}", window
     yield from _dialogs(stage)
     yield from _program(stage)
+    yield from _plane(stage)
     studio.close()
 
 
@@ -150,6 +151,23 @@ def running(stage: Stage, kind: str) -> None:
     keys = ("position.x", "thread0")  # what the status bar shows, whatever panel is in front
     stage.until(lambda: all(rig.controller.last().time(key) > moment for key in keys))
     stage.go(12)
+
+
+def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """A rounded rectangle as the X-Y view saw it."""
+    import dataclasses as dc
+
+    studio, document = stage.studio, stage.studio.session.document
+    axis = dc.replace(document.setup.axes[0], reverse_limit="-5", forward_limit="25")
+    setup = dc.replace(document.setup, model="ssc2", axes=(axis,) * 4)
+    studio.session.set_document(dc.replace(document, setup=setup), "A table")
+    rig = stage.connect("simulator", "ssc2")
+    studio.desk.bring("X-Y view")
+    rig.type("VS 6000", "VA 100000", "VD 100000", "VM XY")
+    rig.type("VP 6370,0", "CR 1911,270,90", "VP 8281,5733", "CR 1911,0,90", "VP 0,7644", "CR 1911,90,90")
+    rig.type("VP -1911,1911", "CR 1911,180,90", "VE", "BGS")
+    stage.until(lambda: rig.simulation.state()["axes"]["Y"]["commanded"] > 7600)
+    yield "panel-x-y-view", studio.window
 
 
 def _states(stage: Stage) -> Iterator[tuple[str, QWidget]]:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 PROGRAMS = "Programs (*.tlp)"
 CODE = "Two-letter code (*.dmc)"
 SETUPS = "Setups (*.tls)"
+PICTURES = "Pictures (*.png)"
 
 
 def ask_open(

@@ -1,0 +1,1 @@
+"""Where two axes are and have been, seen from above."""
