@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar, QToolButton
 
 from app import facts as need
 from app.facts import Facts
+from codegen.slowed import PERCENTS
 from widgets.parts.icons import icon
 
 Need = Callable[[Facts], str]
@@ -30,11 +31,18 @@ class Row:
     short: str = ""
     needs: tuple[Need, ...] = ()
     checkable: bool = False
+    submenu: str = ""  # the menu inside the menu that it stands in
     program: bool = False  # the action lives in the program window, which keeps its shortcut and state
 
 
 def _program(name: str, menu: str) -> Row:
     return Row(name, name, menu, "", program=True)
+
+
+def _slow(percent: int) -> Row:
+    words = f"Sends the program with every speed at {percent} % and runs it: for the first time on a machine"
+    needs = (*CHANGE, need.something)
+    return Row(f"execute_{percent}", f"Execute at {percent} %…", "Controller", words, needs=needs, submenu="slow")
 
 
 CHANGE = (need.control, need.quiet)
@@ -111,6 +119,8 @@ ROWS: tuple[Row, ...] = (
         needs=(*CHANGE, need.something)),
     Row("execute", "Execute", "Controller", "Runs the program that is in the controller", "F5", "execute", "run",
         needs=CHANGE),
+    Row("slow", "Execute slowed", "Controller", "The program at a part of its speed, for a first run"),
+    *map(_slow, PERCENTS),
     Row("halt", "Halt", "Controller", "Halts programs and decelerates all motion", "Shift+F5", "halt", "run",
         needs=(need.control,)),
     Row("burn", "Burn…", "Controller", "Writes the program into permanent memory", "", "burn", "run", needs=CHANGE),
@@ -180,7 +190,7 @@ class Actions(QObject):
     def fill_menus(self, bar: QMenuBar, submenus: Mapping[str, QMenu]) -> None:
         """File, Edit, View, Machine, Controller, Help."""
         menus = {name: bar.addMenu(f"&{name}") for name in MENUS}
-        for menu in menus.values():
+        for menu in (*menus.values(), *submenus.values()):
             menu.setToolTipsVisible(True)
         for row in ROWS:
             menu = menus[row.menu]
@@ -189,7 +199,9 @@ class Actions(QObject):
                 continue
             if row.name in BREAKS:
                 menu.addSeparator()
-            if row.name in SUBMENUS:
+            if row.submenu:
+                submenus[row.submenu].addAction(self.actions[row.name])
+            elif row.name in SUBMENUS:
                 menu.addMenu(submenus[row.name])
             else:
                 menu.addAction(self.actions[row.name])
@@ -205,6 +217,13 @@ class Actions(QObject):
                 if isinstance(button, QToolButton):
                     button.setFocusPolicy(button.focusPolicy().TabFocus)
                     button.setAccessibleName(self.rows[name].text.rstrip("…"))
+
+    def open_below(self, bar: QToolBar, name: str, menu: QMenu) -> None:
+        """A button of the toolbar with a menu of its own behind its arrow."""
+        button = bar.widgetForAction(self.actions[name])
+        if isinstance(button, QToolButton):
+            button.setMenu(menu)
+            button.setPopupMode(QToolButton.ToolButtonPopupMode.MenuButtonPopup)
 
     def _add_program(self, menu: QMenu, name: str) -> None:
         if name.startswith("-"):
@@ -230,4 +249,4 @@ class Actions(QObject):
         return action
 
 
-SUBMENUS = frozenset({"recent", "panels", "floats"})
+SUBMENUS = frozenset({"recent", "panels", "floats", "slow"})

@@ -8,10 +8,12 @@ from enum import Enum
 
 from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse
+from codegen.twoletter.slow_mark import FULL, percent_of
 from device.api import Badge, Controller
 from device.download import program_lines
 
 MOST_SHOWN = 8  # lines of code in a question
+REAL_FIRST = "Download the program as it is written first, and let it run once."
 MOVES = "the machine may move as soon as it is switched on"
 
 
@@ -21,6 +23,7 @@ class Holding(Enum):
     SAME = "the open program"
     EARLIER = "the open program before it was changed"
     OTHER = "another program"
+    SLOWED = "a program at a part of its speed"
     EMPTY = "no program"
     UNKNOWN = "not known"
 
@@ -43,15 +46,17 @@ class Held:
     lines: tuple[str, ...] = ()
     sent: Sent | None = None  # when it came from here
     labels: tuple[str, ...] = ()
+    percent: int = FULL  # of the speed that was written
 
     @property
     def words(self) -> str:
         """Which program it is, for the middle of a sentence."""
         count = f"{len(self.lines)} line{'s' * (len(self.lines) != 1)}"
+        slow = f" slowed to {self.percent} %" if self.percent < FULL else ""
         if self.sent is not None:
-            return f"“{self.sent.name}” as it was downloaded at {self.sent.time} ({count})"
+            return f"“{self.sent.name}”{slow} as it was downloaded at {self.sent.time} ({count})"
         label = f", first label #{self.labels[0]}" if self.labels else ""
-        return f"another program than the open one ({count}{label})"
+        return f"another program than the open one{slow and ','}{slow} ({count}{label})"
 
     @property
     def shown(self) -> str:
@@ -75,7 +80,10 @@ def held_by(controller: Controller, sent: Sent | None) -> Held:
         return Held()
     lines = tuple(program_lines(listing))
     from_here = sent if sent is not None and sent.lines == lines else None
-    if badge is Badge.SAME:
+    percent = percent_of(listing)
+    if percent < FULL:
+        holding = Holding.SLOWED
+    elif badge is Badge.SAME:
         holding = Holding.SAME
     elif not lines:
         holding = Holding.EMPTY
@@ -83,7 +91,7 @@ def held_by(controller: Controller, sent: Sent | None) -> Held:
         holding = Holding.EARLIER
     else:
         holding = Holding.OTHER
-    return Held(holding, lines, from_here, tuple(_labels(listing)))
+    return Held(holding, lines, from_here, tuple(_labels(listing)), percent)
 
 
 def burn_words(held: Held, name: str) -> str:
@@ -93,6 +101,8 @@ def burn_words(held: Held, name: str) -> str:
             "There is no program in the controller: the open one was not downloaded. "
             "Burned, the program memory is empty after the next power-up, and nothing starts."
         )
+    if held.holding is Holding.SLOWED:
+        return f"The controller holds {held.words}. A slowed program is never burned. {REAL_FIRST}"
     if held.holding is Holding.SAME:
         return f"What is burned is the open program “{name}” ({len(held.lines)} lines). {held.power_up}"
     if held.holding is Holding.EARLIER:
@@ -107,9 +117,23 @@ def execute_words(held: Held) -> str:
     tied = "Execute belongs to the program that was downloaded and verified."
     if held.holding is Holding.EMPTY:
         return f"There is no program in the controller. {tied}"
+    if held.holding is Holding.SLOWED:
+        return (
+            f"The controller holds {held.words}. At full speed it moves {FULL / held.percent:g} times as fast: "
+            "the program is sent again as it is written."
+        )
     if held.holding is Holding.EARLIER:
         return f"The program was changed since. The controller holds {held.words}. {tied}\n\n{held.shown}"
     return f"The controller holds {held.words}. {tied}\n\n{held.shown}"
+
+
+def slow_words(held: Held, percent: int) -> str:
+    """What is sent before a slowed run, and what it leaves alone."""
+    kept = f"It takes the place of what the controller holds: {held.words}. " if held.lines else ""
+    return (
+        f"The program is sent with every speed at {percent} %. {kept}"
+        "Paths and places stay the same; accelerations and pauses too. It can not be burned."
+    )
 
 
 def _labels(listing: str) -> Iterator[str]:

@@ -12,12 +12,14 @@ from typing import Any, Protocol
 from PySide6.QtCore import QObject, Signal
 
 from app.connection import Connection
-from app.held import Held, Holding, Sent, burn_words, execute_words, held_by
+from app.held import Held, Holding, Sent, burn_words, execute_words, held_by, slow_words
 from app.right_machine import RightMachine
 from app.session import Session
 from app.tick import Tick, failure_of
 from codegen.generate import Listing
 from codegen.program import program_label
+from codegen.slowed import slowed
+from codegen.twoletter.slow_mark import FULL
 from device.api import Badge, Job
 from device.download import program_lines
 
@@ -59,23 +61,26 @@ class Run(QObject):
         self._known: tuple[object, Held] | None = None
         session.replaced.connect(self._forget_open)
 
-    def download(self, then: Callable[[], None] | None = None) -> None:
-        """The listing of the open program, verified by reading it back."""
-        listing = self._session.listing
+    def download(self, then: Callable[[], None] | None = None, percent: int = FULL) -> None:
+        """The listing of the open program, at a part of its speed if wanted; verified by reading it back."""
+        listing = self._listing(percent)
         errors = [each for each in listing.problems if each.severity == "error"]
         if errors:
             first = errors[0]
             self._ask(
-                "The program can not be downloaded yet",
+                "The program can not be downloaded yet" if percent == FULL else f"It can not run at {percent} %",
                 _as_sentence(first.message) + (f" ({len(errors) - 1} more in Problems.)" if len(errors) > 1 else ""),
                 [("Show it", lambda: self.show_problem.emit(first.step))],
                 "problem",
             )
             return
-        self._right.careful("Download", partial(self._download, then))
+        self._right.careful("Download", partial(self._download, then, percent))
 
-    def _download(self, then: Callable[[], None] | None) -> None:
-        listing = self._session.listing  # as sent: the document may change meanwhile
+    def _listing(self, percent: int) -> Listing:
+        return self._session.listing if percent == FULL else slowed(self._session.document, percent)
+
+    def _download(self, then: Callable[[], None] | None, percent: int) -> None:
+        listing = self._listing(percent)  # as sent: the document may change meanwhile
         name = program_label(self._session.document.program)
         job = self._connection.controller.download(listing.text)
         sent = Sent(name, tuple(program_lines(listing.text)), self._now().strftime("%H:%M"))
@@ -96,14 +101,34 @@ class Run(QObject):
             download = ("Download and execute", lambda: self.download(self.run_in_controller))
             run = ("Run what is in the controller", partial(self._run_held, held))
             show = ("Show what is in the controller", self.upload)
+            if held.holding is Holding.SLOWED:
+                download = ("Download and execute at full speed", download[1])
+                run = (f"Run it at {held.percent} %", run[1])
             answers = [download] if held.holding is Holding.EMPTY else [download, run, show]
             self._ask("Which program?", execute_words(held), answers, "warning")
 
+    def execute_slowly(self, percent: int) -> None:
+        """Runs the program at a part of its speed; what the controller holds is exchanged for that after asking."""
+        self._right.careful("Execute", partial(self._execute_slowly, percent))
+
+    def _execute_slowly(self, percent: int) -> None:
+        held = self.held()
+        if held.holding is Holding.UNKNOWN:
+            self._read_first(partial(self._execute_slowly, percent))
+        elif held.percent == percent and list(held.lines) == program_lines(self._listing(percent).text):
+            self.run_in_controller()
+        else:
+            answer = partial(self.download, self.run_in_controller, percent)
+            words = f"Download and execute at {percent} %"
+            self._ask(f"Execute at {percent} % of the speed?", slow_words(held, percent), [(words, answer)], "warning")
+
     def run_in_controller(self) -> None:
-        """XQ of the program's label if the verified listing is in the controller, else of line 0."""
-        controller = self._connection.controller
+        """XQ of the program's label if a verified listing of it is in the controller, else of line 0."""
+        controller, held = self._connection.controller, self.held()
         same = controller.program_badge is Badge.SAME
         label = program_label(self._session.document.program) if same else None
+        if held.holding is Holding.SLOWED and held.sent is not None:
+            label = held.sent.name
         self._then(controller.execute(label, anyway=not same), self._executed)
 
     def held(self) -> Held:
@@ -130,6 +155,8 @@ class Run(QObject):
         name = program_label(self._session.document.program)
         burn, first = ("Burn", partial(self._burn, held)), ("Download first", partial(self.download, self.burn))
         answers = [burn] if held.holding is Holding.SAME else [first, burn]
+        if held.holding is Holding.SLOWED:
+            answers = [("Download at full speed", self.download)]
         self._ask("Burn the program?", burn_words(held, name), answers, "warning")
 
     def upload(self) -> None:

@@ -24,6 +24,12 @@ BADGES = {
         "≠ Changed",
         "The controller holds {held}, before the changes since. Execute asks which one is meant; Download sends it.",
     ),
+    Holding.SLOWED: (
+        "warning",
+        "◔ Slowed to {percent} %",
+        "◔ {percent} %",
+        "The controller holds {held}. Execute asks before it goes back to full speed; it can not be burned.",
+    ),
     Holding.OTHER: (
         "warning",
         "≠ Another program",
@@ -80,6 +86,8 @@ class RunBar(QWidget):
         """The words in full where there is room for them, else in short."""
         held = self._shown
         role, words, short, help_text = BADGES[held.holding] if held is not None else ("quiet", "", "", "")
+        percent = held.percent if held is not None else 0
+        words, short = words.format(percent=percent), short.format(percent=percent)
         needed = self.toolbar.sizeHint().width() + self.badge.fontMetrics().horizontalAdvance(words) + ROOM
         set_text(self.badge, words if needed <= self.width() else short)
         self.badge.setToolTip(help_text.format(held=held.words) if held is not None else "")

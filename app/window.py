@@ -46,6 +46,7 @@ class Window(QMainWindow):
             "recent": QMenu("Open recent"),
             "panels": QMenu("Panels"),
             "floats": QMenu("Panel in a window of its own"),
+            "slow": QMenu("Execute slowed"),
         }
         self._areas: dict[Qt.DockWidgetArea, list[Dock]] = {}
         self._was_shown = False

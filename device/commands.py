@@ -10,12 +10,13 @@ from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
+from codegen.twoletter.slow_mark import BURNS, FULL, percent_of
 from device.asking import Listing
 from device.door import LISTS, only_reads
 from device.download import proved, upload_steps
 from device.identify import fence
 from device.stop import StopState
-from device.tasks import LinkError, LinkLost, Refused, Send, Steps, data_line
+from device.tasks import LinkError, LinkLost, NotAllowed, Refused, Send, Steps, data_line
 from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, Upload, framed
 
 if TYPE_CHECKING:
@@ -56,6 +57,9 @@ def typed(controller: Controller, command: str, timeout_s: float | None) -> Step
     if controller.waiting.entry:
         return (yield from _entered(controller, command))
     found = names(command)
+    slow = percent_of(controller.listing or "")
+    if slow < FULL and not BURNS.isdisjoint(found):
+        raise NotAllowed(f"Not burned: the program in the controller is slowed to {slow} %, and so may its speeds be.")
     if found and found[-1] in ENTRY:
         return (yield from _enter(controller, command, found[-1]))
     before = (yield from _before_start(controller)) if "XQ" in found else 0

@@ -112,7 +112,7 @@ def test_the_program_window_has_download_execute_halt_burn() -> None:
 def test_every_row_is_in_its_menu(stage: Stage) -> None:
     menus = {action.text().replace("&", ""): action.menu() for action in stage.studio.window.header.menus.actions()}
     for row in OWN:
-        menu = menus[row.menu]
+        menu = stage.studio.window.submenus[row.submenu] if row.submenu else menus[row.menu]
         assert isinstance(menu, QMenu)
         texts = [action.text() for action in menu.actions()]
         assert row.text in texts

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.slow_mark import mark_of
 from widgets.panel import set_text
 from widgets.parts.look import look
 
@@ -51,8 +52,10 @@ def thread_words(number: int, line: float, source: Sequence[str], sentences: Map
         return f"■  Thread {number}: not running"
     at = int(line)
     text = source[at].strip() if at < len(source) else ""
+    mark = mark_of(source)
+    slow = f" – {mark}" if mark else ""
     if at in sentences:
-        return f"▲  Thread {number}: line {at}, {sentences[at]} ({text})"
+        return f"▲  Thread {number}: line {at}, {sentences[at]} ({text}){slow}"
     row = COMMANDS.get(text[:2].upper())
     waits = f"waiting: {row.title.lower()} " if row is not None and row.trippoint else ""
-    return f"▲  Thread {number}: line {at}" + (f", {waits}({text})" if text else "")
+    return f"▲  Thread {number}: line {at}" + (f", {waits}({text})" if text else "") + slow

@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 
 from codegen.generate import Listing
 from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.slow_mark import mark_of
 from widgets.parts.look import look
 from widgets.program.words import Words
 
@@ -41,6 +42,7 @@ class Doing:
     step: str = ""
     sentence: str = ""
     waits: str = ""
+    slow: str = ""  # "slowed to 25 %"
 
     @property
     def text(self) -> str:
@@ -48,26 +50,29 @@ class Doing:
         if self.line is None:
             return f"■ Thread {self.thread} is not running"
         waits = f", waiting: {self.waits}" if self.waits else ""
-        return f"► Thread {self.thread}: line {self.line}, {self.sentence}{waits}"
+        slow = f" – {self.slow}" if self.slow else ""
+        return f"► Thread {self.thread}: line {self.line}, {self.sentence}{waits}{slow}"
 
     @property
     def cells(self) -> tuple[str, ...]:
         """The same for the table."""
         if self.line is None:
             return (str(self.thread), "■ not running", "", "", "")
-        return (str(self.thread), "► running", str(self.line), self.sentence, self.waits or "no")
+        state = f"► {self.slow or 'running'}"
+        return (str(self.thread), state, str(self.line), self.sentence, self.waits or "no")
 
 
 def doing(threads: Threads, listing: Listing, words: Words) -> list[Doing]:
     """Every thread, with the sentence of the instruction its line comes from."""
     found = []
+    slow = mark_of([line.text for line in listing.lines[-1:]])
     for thread, line in sorted(threads.items()):
         if line is None or not 0 <= line < len(listing.lines):
             found.append(Doing(thread, None))
             continue
         step, code = listing.step_of(line), listing.lines[line].text
         sentence = words.sentence_of(step) or code
-        found.append(Doing(thread, line, step, sentence, waits_for(code)))
+        found.append(Doing(thread, line, step, sentence, waits_for(code), slow))
     return found
 
 
