@@ -1,9 +1,14 @@
-"""Changing the unit or the scale of a machine under a program: keep the lengths, or keep the counts."""
+"""Changing the unit or the scale of a machine under a program: keep the lengths, or keep the counts.
+
+A number that would not end soon is written with twelve decimals, rounded so that the same counts are sent: away from
+zero, because speeds and errors are cut towards it; a limit of the travel outwards, because that is rounded inwards.
+"""
 
 from __future__ import annotations
 
 import dataclasses as dc
 from fractions import Fraction
+from math import ceil, floor
 from typing import Any, Literal
 
 from codegen.document import Document
@@ -30,6 +35,8 @@ from codegen.units import in_counts
 
 IN_UNITS = (Dimension.DISTANCE, Dimension.POSITION, Dimension.SPEED, Dimension.ACCELERATION, Dimension.ERROR)
 AXIS_VALUES = ("forward_limit", "reverse_limit", "error_limit", "maximum_speed", "maximum_acceleration")
+FORWARD, REVERSE = ("forward", "forward_limit"), ("reverse", "reverse_limit")
+PLACES = 10**12
 Keep = Literal["units", "counts"]
 
 
@@ -66,7 +73,7 @@ def _item(item: Any, factors: dict[str, Fraction], letters: str = "") -> Any:
                 letter = getattr(item, field.axis, "") if field.axis else ""
                 new[name] = scaled_text(value, factors.get(letter, Fraction(1)))
             case PerAxis(of=Quantity(dimension=dimension)) if dimension in IN_UNITS:
-                new[name] = _per_axis(value, factors)
+                new[name] = _per_axis(value, factors, name)
             case ListOf():
                 own = getattr(item, field.axes) if field.axes else ""
                 new[name] = tuple(_item(row, factors, own) for row in value)
@@ -86,32 +93,44 @@ def _table(text: str, factors: list[Fraction]) -> str:
     if not isinstance(grid, Grid) or grid.columns != len(factors) or all(factor == 1 for factor in factors):
         return text
     rows = [
-        ["" if cell is None else plain(cell * factor) for cell, factor in zip(row, factors, strict=True)]
+        ["" if cell is None else _written(cell * factor) for cell, factor in zip(row, factors, strict=True)]
         for row in grid.rows
     ]
     return write_table(rows)
 
 
-def _per_axis(texts: PerAxisText, factors: dict[str, Fraction]) -> PerAxisText:
+def _per_axis(texts: PerAxisText, factors: dict[str, Fraction], name: str) -> PerAxisText:
     x, y, z, w = (
-        text if text.strip().lower() == OFF else scaled_text(text, factors[letter])
+        text if text.strip().lower() == OFF else scaled_text(text, factors[letter], name)
         for letter, text in zip(AXES, texts, strict=True)
     )
     return x, y, z, w
 
 
-def scaled_text(text: str, factor: Fraction) -> str:
+def scaled_text(text: str, factor: Fraction, name: str = "") -> str:
     """A typed number times `factor`; in an expression everything but live values, which convert themselves."""
     value = value_of(text)
     if factor == 1 or isinstance(value, Bad):
         return text
     if isinstance(value, Fraction):
-        return plain(value * factor)
+        return _written(value * factor, name)
     return write(in_counts(value, factor, lambda operand: factor if is_counted(operand) else None))
+
+
+def _written(number: Fraction, name: str = "") -> str:
+    """A number that the same counts are sent for, in the field of that name."""
+    if PLACES % number.denominator == 0:
+        return plain(number)
+    up = name in FORWARD or (name not in REVERSE and number > 0)
+    return plain(Fraction((ceil if up else floor)(number * PLACES), PLACES))
 
 
 def _axis(new: Axis, old: Axis, factor: Fraction) -> Axis:
     """Limits that were not changed by hand keep their counts."""
     kept = (name for name in AXIS_VALUES if getattr(new, name) == getattr(old, name))
-    rewritten: dict[str, Any] = {name: scaled_text(getattr(new, name), factor) for name in kept}
+    rewritten: dict[str, Any] = {name: _axis_text(name, getattr(new, name), factor) for name in kept}
     return dc.replace(new, **rewritten)
+
+
+def _axis_text(name: str, text: str, factor: Fraction) -> str:
+    return text if text.strip().lower() == OFF else scaled_text(text, factor, name)

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 from codegen.conversion import LARGEST
 from codegen.fields import Choice, Context, Counts, Dimension, Flag, Limit, Number, Quantity, Smoothing, Text, value
-from codegen.numbers import parse_number
+from codegen.numbers import parse_number, plain
 from codegen.twoletter.commands import COMMANDS
 
 
@@ -104,6 +104,13 @@ class Ratio(Number):
     literal: bool = True
     required: bool = False
     warns: ClassVar[bool] = False
+
+    def wrong(self, value: str, context: Context) -> str | None:
+        number = ratio_of(value)
+        return super().wrong(value if number is None else plain(number), context)
+
+    def text(self, value: str, context: Context) -> str:
+        return value.strip()
 
 
 def _register(name: str, label: str, help: str, **more: Any) -> Number:
