@@ -17,16 +17,8 @@ from codegen.twoletter.commands import COMMANDS
 from device.conform_checks import CHECKS
 from device.conform_talk import Odd, Talk
 from device.identify import REVISION, model_of
-from device.simulator.twoletter.profile import (
-    DEFAULTS,
-    FACTORY,
-    MOTION,
-    SETTINGS,
-    Profile,
-    ProfileWrong,
-    Value,
-    shown,
-)
+from device.simulator.twoletter.profile import DEFAULTS, SETTINGS, Profile, ProfileWrong, shown
+from device.simulator.twoletter.setting import FACTORY, MOTION, Value
 from device.transport import Transport, TransportLost
 
 STILL_S: Final = 0.15

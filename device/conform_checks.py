@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.rows import Row, Takes
-from device.conform_talk import Odd, Talk
-from device.simulator.twoletter.profile import ENDS, Value
+from device.conform_expressions import assignments, brackets, division, numbers, operands
+from device.conform_talk import NOBODY, Odd, Seen, Talk, highest
+from device.simulator.twoletter.profile import ENDS
+from device.simulator.twoletter.setting import Value
 
 if TYPE_CHECKING:
     from device.conform import Session
 
-Seen = Iterator[tuple[str, Value]]
-"""Settings with the value that the controller shows."""
 Check = Callable[["Session"], Seen]
 
-NOBODY: Final = "ZZQXW"  # a name that no program uses
 REFUSED: Final = {  # lines that every manual refuses, and that do nothing where they are accepted
     1: "QQ",
     2: f"JP #{NOBODY}",
@@ -66,16 +65,8 @@ def longest_line(session: Session) -> Seen:
     if fits(usual) and not fits(usual + 1):
         yield "line_characters", usual
     else:
-        yield "line_characters", _last(fits, 10, 512)
+        yield "line_characters", highest(fits, 10, 512)
     session.talk.code()
-
-
-def _last(fits: Callable[[int], bool], low: int, high: int) -> int:
-    """The highest of a range that fits, by halving."""
-    while low < high:
-        middle = (low + high + 1) // 2
-        low, high = (middle, high) if fits(middle) else (low, middle - 1)
-    return low
 
 
 def echo(session: Session) -> Seen:
@@ -184,29 +175,6 @@ def error_code(session: Session) -> Seen:
     raise Odd(f"'TC1' was answered by {text!r}")
 
 
-def numbers(session: Session) -> Seen:
-    """Functions and sums where the manuals leave two ways open."""
-    talk = session.talk
-    yield "int_of_negative", _which(talk, "@INT[-2.5]", {-2: "towards zero", -3: "down"})
-    yield "round_half", _which(talk, "@RND[-2.5]", {-2: "up", -3: "away from 0"})
-    reply = talk.line("MG @SQR[-4]{F4.2}")
-    if reply.accepted and "2.00" not in reply.text:
-        raise reply.odd()
-    yield "root_of_negative", "of the magnitude" if reply.accepted else "error 6"
-    sum_ = talk.number("2147483647+2147483647", "F10.0")
-    yield "overflow", "wraps" if sum_ == -2 else "stops at the limit"
-    if sum_ != -2 and abs(sum_ - 2147483647) > 1:
-        raise Odd(f"2147483647+2147483647 is {sum_}")
-    talk.code()
-
-
-def _which(talk: Talk, expression: str, known: dict[int, str]) -> str:
-    value = talk.number(expression)
-    if value not in known:
-        raise Odd(f"{expression} is {value}")
-    return known[int(value)]
-
-
 def formats(session: Session) -> Seen:
     """Digits and decimals of every answer that is not formatted by PF, and the sign column of the status bytes."""
     signs = set()
@@ -244,7 +212,7 @@ def _highest(talk: Talk, row: Row, high: float, step: float) -> Value:
     steps = round(high / step)
     if fits(steps) and not fits(steps + 1):
         return row.high if row.high is not None else high
-    most = _last(fits, 1, min(UNLIKELY * 256, (1 << 31) - 1 if step >= 1 else UNLIKELY * 64) // max(1, int(step)))
+    most = highest(fits, 1, min(UNLIKELY * 256, (1 << 31) - 1 if step >= 1 else UNLIKELY * 64) // max(1, int(step)))
     found = most * step
     return int(found) if found == int(found) else round(found, 4)
 
@@ -302,6 +270,10 @@ CHECKS: Final[tuple[tuple[str, Check], ...]] = (
     ("echo", echo),
     ("formats", formats),
     ("numbers", numbers),
+    ("division", division),
+    ("brackets", brackets),
+    ("assignments", assignments),
+    ("operands of threads", operands),
     ("ranges", ranges),
     ("rounding of AC", grain),
     ("arrays", arrays),

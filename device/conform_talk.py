@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, TypeAlias
 
+from device.simulator.twoletter.setting import Value
 from device.transport import Transport
 
 QUIET_S: Final = 0.06  # after a prompt; adapters keep characters up to 16 ms
@@ -15,6 +16,9 @@ FIRST_S: Final = 1.0  # until the first character
 MOST_S: Final = 60.0  # for one answer: a thousand lines at 19 200 baud take 43 s
 LINE: Final = 60  # characters of a line that every controller takes
 PROMPTS: Final = (b":", b"?")
+NOBODY: Final = "ZZQXW"  # a name that no program uses
+Seen: TypeAlias = Iterator[tuple[str, Value]]
+"""Settings with the value that the controller shows."""
 NUMBER: Final = re.compile(r"[- ]?\d+(?:\.\d+)?")
 
 
@@ -152,3 +156,11 @@ class Talk:
     def listen(self, seconds: float) -> bytes:
         """Waits, and answers what came unasked meanwhile."""
         return self._transport.read(seconds)
+
+
+def highest(fits: Callable[[int], bool], low: int, high: int) -> int:
+    """The highest of a range that fits, by halving."""
+    while low < high:
+        middle = (low + high + 1) // 2
+        low, high = (middle, high) if fits(middle) else (low, middle - 1)
+    return low

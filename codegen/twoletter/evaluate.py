@@ -28,6 +28,7 @@ from codegen.twoletter.nodes import (
 )
 
 OUT_OF_RANGE = 6
+VARIABLE_ERROR = 9
 STRING_TOO_LONG = 52
 INDEX_INVALID = 56
 
@@ -76,6 +77,25 @@ def divide(left: int, right: int) -> int:
     return wrap(quotient if (left < 0) == (right < 0) else -quotient)
 
 
+def _divide_down(left: int, right: int) -> int:
+    if right == 0:
+        raise EvaluationError(OUT_OF_RANGE)
+    return wrap((left << 16) // right)
+
+
+def _with_zero(operation: Operation, by_zero: Operation) -> Operation:
+    """A division where another controller does something else about zero."""
+    return lambda left, right: operation(left, right) if right else by_zero(left, right)
+
+
+def _variable_error(left: int, right: int) -> int:
+    raise EvaluationError(VARIABLE_ERROR)
+
+
+def _largest(left: int, right: int) -> int:
+    return LOWEST if left < 0 else HIGHEST
+
+
 def limited(value: int) -> int:
     """The nearest number of six bytes: overflow of a controller that stops at the limit."""
     return max(LOWEST, min(HIGHEST, value))
@@ -89,6 +109,13 @@ OPERATIONS: dict[str, Operation] = {
     "+~": lambda left, right: limited(left + right),  # no source has these: see the simulator's arithmetic.py
     "-~": lambda left, right: limited(left - right),
     "*~": lambda left, right: limited(product(left, right)),
+    "*_": lambda left, right: wrap(left * right >> 16),
+    "*~_": lambda left, right: limited(left * right >> 16),
+    "/_": _divide_down,
+    "/9": _with_zero(divide, _variable_error),
+    "/9_": _with_zero(_divide_down, _variable_error),
+    "/^": _with_zero(divide, _largest),
+    "/^_": _with_zero(_divide_down, _largest),
     "&": lambda left, right: left & right,
     "|": lambda left, right: left | right,
     "<": lambda left, right: ONE if left < right else 0,
@@ -136,7 +163,7 @@ def constant(expression: Expression) -> int | None:
 
 
 def _constant_binary(operator: str, left: int | None, right: int | None) -> int | None:
-    if left is None or right is None or (operator == "/" and right == 0):
+    if left is None or right is None or (operator[0] == "/" and right == 0):
         return None
     return OPERATIONS[operator](left, right)
 

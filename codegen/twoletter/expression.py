@@ -150,7 +150,7 @@ def in_square_brackets(cursor: Cursor) -> tuple[Expression, int]:
 
 def _deeper(cursor: Cursor) -> None:
     cursor.depth += 1
-    if cursor.depth > DEEPEST:
+    if cursor.depth > cursor.deepest:
         raise cursor.refuse("too-deep", 59)
 
 

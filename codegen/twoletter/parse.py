@@ -8,7 +8,7 @@ from functools import lru_cache
 from codegen.twoletter.arguments import LABEL_NAME, READERS, assigned, index_and_numbers
 from codegen.twoletter.braces import local_format
 from codegen.twoletter.commands import COMMANDS, KEYWORDS, LATER
-from codegen.twoletter.expression import expression, operand, variable
+from codegen.twoletter.expression import DEEPEST, expression, operand, variable
 from codegen.twoletter.nodes import (
     Assign,
     Broken,
@@ -48,16 +48,16 @@ def parse(text: str) -> Source:
     return Source(tuple(map(parse_line, lines)))
 
 
-def parse_line(text: str) -> Line:
+def parse_line(text: str, deepest: int = DEEPEST) -> Line:
     """One line without its line end; what is no statement becomes Broken or Foreign."""
     if len(text) > LONGEST_LINE and not _HOST_COMMENT(text):
         span = Span(0, len(text))
         return Line((Broken(text, "line-too-long", 60, span, Span(LONGEST_LINE, len(text))),), text)
-    return _parse_line(text)
+    return _parse_line(text, deepest)
 
 
 @lru_cache(maxsize=16384)
-def _parse_line(text: str) -> Line:
+def _parse_line(text: str, deepest: int) -> Line:
     if match := _HOST_COMMENT(text):
         mark = match[1] or match[2]
         return Line((Comment(mark, match[3].strip(_BLANKS), Span(match.start(1 if match[1] else 2), len(text))),), text)
@@ -66,14 +66,14 @@ def _parse_line(text: str) -> Line:
     statements: list[Statement] = []
     position = 0
     while True:
-        statement, position = _statement(text, position)
+        statement, position = _statement(text, position, deepest)
         statements.append(statement)
         if position >= len(text):
             return Line(tuple(statements), text)
         position += 1
 
 
-def _statement(text: str, position: int) -> tuple[Statement, int]:
+def _statement(text: str, position: int, deepest: int) -> tuple[Statement, int]:
     """One statement and the column of the `;` (or line end) behind it."""
     match = _START.match(text, position)
     assert match is not None
@@ -85,7 +85,7 @@ def _statement(text: str, position: int) -> tuple[Statement, int]:
         return Nothing(Span(after, after)), after
     start = match.start(1) if name else after
     try:
-        cursor = Cursor(text, start)
+        cursor = Cursor(text, start, deepest)
         statement = _read(cursor, name, following)
         cursor.finish()
         return statement, cursor.start

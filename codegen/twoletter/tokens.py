@@ -47,10 +47,11 @@ class Refused(Exception):
 class Cursor:
     """Walks over the tokens of one statement; the present token is `kind`, `value`, `start`, `end`."""
 
-    __slots__ = ("depth", "end", "kind", "start", "text", "value")
+    __slots__ = ("deepest", "depth", "end", "kind", "start", "text", "value")
 
-    def __init__(self, text: str, position: int) -> None:
+    def __init__(self, text: str, position: int, deepest: int) -> None:
         self.text = text
+        self.deepest = deepest  # brackets within brackets
         self.depth = 0
         self.end = position
         self.advance()

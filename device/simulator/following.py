@@ -58,9 +58,9 @@ class Cam:
         self.master(0, auxiliary=False)
         self.interval(256, 0)
 
-    def master(self, axis: int, *, auxiliary: bool) -> None:
-        """EA: the master's main encoder, or (141x) the auxiliary encoder of the axis."""
-        slot = layout.AUXILIARY if auxiliary else layout.ACTUAL
+    def master(self, axis: int, *, auxiliary: bool, commanded: bool = False) -> None:
+        """EA: the master's main encoder or commanded place, or (141x) the auxiliary encoder of the axis."""
+        slot = layout.AUXILIARY if auxiliary else layout.POSITION if commanded else layout.ACTUAL
         self._state[layout.CAM_MASTER] = float(axis_base(axis) + slot)
         self._state[layout.CAM_AXIS] = float(axis)
         self._state[layout.CAM_AUXILIARY] = 1.0 if auxiliary else 0.0
@@ -124,7 +124,7 @@ class Cam:
             return
         part[layout.CAM_WAITS] = 0.0
         if follow:
-            cam.engage(part)
+            cam.engage(self._state, axis)
         else:
             part[layout.CAM_ENGAGED] = 0.0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from device.simulator.kernel import inputs, layout
@@ -28,7 +29,15 @@ class Readings:
 
     def position(self, axis: int) -> int:
         """TP: main encoder, counts."""
-        return wrapped(self._read(axis, layout.ACTUAL))
+        return wrapped(self._encoder(axis))
+
+    def _encoder(self, axis: int) -> float:
+        """The encoder as this sample began; with READ_LATE as it is at its end (without noise)."""
+        part = self._parts[axis]
+        if not part[layout.READ_LATE] or part[layout.ANALOG_FEEDBACK]:
+            return part[layout.ACTUAL]
+        place = part[layout.LOAD_X if part[layout.MAIN_ON_LOAD] else layout.MOTOR_X]
+        return math.floor(place + 0.5) * part[layout.ENCODER_SIGN] + part[layout.COUNTS_SHIFT]
 
     def reference(self, axis: int) -> int:
         """RP: commanded position, counts (behind the IT filter)."""
@@ -43,7 +52,7 @@ class Readings:
         """TE: RP - TP, 0 for a stepper."""
         if self._flag(axis, layout.STEPPER):
             return 0
-        return int(self._read(axis, layout.REFERENCE) - self._read(axis, layout.ACTUAL))
+        return int(self._read(axis, layout.REFERENCE) - self._encoder(axis))
 
     def auxiliary(self, axis: int) -> int:
         """TD: auxiliary encoder of a servo, steps sent of a stepper."""

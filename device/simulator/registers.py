@@ -35,6 +35,11 @@ class Register(IntEnum):
     DUAL_LOOP = layout.DUAL_LOOP
     ANALOG_FEEDBACK = layout.ANALOG_FEEDBACK
     GEAR_RATIO = layout.GEAR_RATIO
+    HOME_SPEED = layout.HOME_V
+    HOME_RAMPED = layout.HOME_RAMPED
+    REFERENCE_BIAS = layout.REFERENCE_BIAS
+    SETTLES_AT_ONCE = layout.SETTLES_AT_ONCE
+    READ_LATE = layout.READ_LATE
 
 
 DEFAULTS: dict[Register, float] = {
@@ -61,6 +66,11 @@ DEFAULTS: dict[Register, float] = {
     Register.DUAL_LOOP: 0.0,
     Register.ANALOG_FEEDBACK: 0.0,
     Register.GEAR_RATIO: 0.0,
+    Register.HOME_SPEED: 0.0,
+    Register.HOME_RAMPED: 0.0,
+    Register.REFERENCE_BIAS: 0.5,
+    Register.SETTLES_AT_ONCE: 0.0,
+    Register.READ_LATE: 0.0,
 }
 
 

@@ -46,10 +46,13 @@ class Path:
         """VT."""
         self._state[layout.PATH_SMOOTHING] = value
 
-    def set_scale(self, first: float, second: float) -> None:
-        """ES: the larger number stretches its axis by their ratio."""
-        self._state[layout.PATH_SCALE_FIRST] = max(1.0, first / second)
-        self._state[layout.PATH_SCALE_SECOND] = max(1.0, second / first)
+    def set_scale(self, first: float, second: float, *, shrinks: bool = False) -> None:
+        """ES: the larger number stretches its axis by their ratio, or shrinks it."""
+        for slot, ratio in (
+            (layout.PATH_SCALE_FIRST, max(1.0, first / second)),
+            (layout.PATH_SCALE_SECOND, max(1.0, second / first)),
+        ):
+            self._state[slot] = 1.0 / ratio if shrinks else ratio
 
     def set_tangent(self, counts_per_degree: float, zero: float) -> None:
         """TN: slope of the tangent axis and its position for angle 0."""
@@ -266,6 +269,14 @@ class Path:
     def length(self) -> float:
         """_LE, _VE: counts of all segments."""
         return self._state[layout.PATH_TOTAL]
+
+    @property
+    def to_come(self) -> float:
+        """Counts of the segments not yet begun."""
+        state = self._state
+        if not self.moving:
+            return self.length if self.ready else 0.0
+        return state[layout.PATH_TOTAL] - state[path.segment(state[layout.PATH_HEAD]) + layout.G_END]
 
     @property
     def travelled(self) -> float:

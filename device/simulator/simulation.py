@@ -13,7 +13,7 @@ from device.simulator.eeprom import Eeprom
 from device.simulator.motion import Motion
 from device.simulator.plant import Plant
 from device.simulator.twoletter import memory
-from device.simulator.twoletter.behaviour.flow import BAD_LINE, UNDEFINED_LABEL
+from device.simulator.twoletter.behaviour.flow import BAD_LINE
 from device.simulator.twoletter.memory import DownloadRefused
 from device.simulator.twoletter.profile import Profile
 from device.simulator.twoletter.records import ProgramError
@@ -154,11 +154,11 @@ class Simulation:
         if isinstance(target, str):
             label = target.removeprefix("#")
             if label not in code.labels:
-                raise CommandError(UNDEFINED_LABEL)
+                raise CommandError(self.unit.profile.unknown_label_code)
             self.unit.start(thread, code.labels[label])
             return
         if not 0 <= target < len(code.start_of):
-            raise CommandError(BAD_LINE if code.start_of else UNDEFINED_LABEL)
+            raise CommandError(BAD_LINE if code.start_of else self.unit.profile.unknown_label_code)
         self.unit.start(thread, code.start_of[target])
 
     # ------------------------------------------------------------------- facts

@@ -20,7 +20,7 @@ class Watch(IntEnum):
     IN_POSITION = auto()  # MC; value: TW in samples, negative for none
     AFTER_DISTANCE = auto()  # AD
     AFTER_RELATIVE = auto()  # AR
-    AFTER_POSITION = auto()  # AP
+    AFTER_POSITION = layout.CROSSING  # AP
     FORWARD_PAST = auto()  # MF
     REVERSE_PAST = auto()  # MR
     AT_SPEED = auto()  # AS
@@ -31,6 +31,8 @@ class Watch(IntEnum):
     PATH_DONE = auto()  # AMS
     PATH_SPEED = auto()  # ASS
     PATH_DISTANCE = auto()  # AV
+    AFTER_DISTANCE_ONLY = auto()  # AD, AR that the end of the move does not end
+    AFTER_RELATIVE_ONLY = auto()
 
 
 Pair = tuple[Condition, Condition]
@@ -60,6 +62,8 @@ CONDITIONS: dict[Watch, Callable[[State, int, float], Pair]] = {
     Watch.IN_POSITION: settled,
     Watch.AFTER_DISTANCE: lambda state, b, value: ((b + layout.DISTANCE, NOT_LESS, abs(value)), still(b)),
     Watch.AFTER_RELATIVE: lambda state, b, value: ((b + layout.MARK_DISTANCE, NOT_LESS, abs(value)), still(b)),
+    Watch.AFTER_DISTANCE_ONLY: lambda state, b, value: ((b + layout.DISTANCE, NOT_LESS, abs(value)), NOTHING),
+    Watch.AFTER_RELATIVE_ONLY: lambda state, b, value: ((b + layout.MARK_DISTANCE, NOT_LESS, abs(value)), NOTHING),
     Watch.AFTER_POSITION: crossing,
     Watch.FORWARD_PAST: lambda state, b, value: ((b + layout.ACTUAL, NOT_LESS, value), NOTHING),
     Watch.REVERSE_PAST: lambda state, b, value: ((b + layout.ACTUAL, NOT_MORE, value), NOTHING),
@@ -113,9 +117,10 @@ def free_places(state: State, count: int) -> list[int]:
 def mark_place(state: State, place: int) -> None:
     """After AD or AR the next AR counts from where this one tripped; AV likewise along the path."""
     kind, wanted = state[place + layout.W_KIND], state[place + layout.W_NUMBER]
-    if kind in (Watch.AFTER_DISTANCE, Watch.AFTER_RELATIVE):
+    from_start = kind in (Watch.AFTER_DISTANCE, Watch.AFTER_DISTANCE_ONLY)
+    if from_start or kind in (Watch.AFTER_RELATIVE, Watch.AFTER_RELATIVE_ONLY):
         b = axis_base(int(state[place + layout.W_AXIS]))
-        origin = layout.START if kind == Watch.AFTER_DISTANCE else layout.MARK
+        origin = layout.START if from_start else layout.MARK
         way = state[b + layout.POSITION] - state[b + origin]
         reached = math.copysign(min(abs(wanted), abs(way)), way)
         state[b + layout.MARK] = state[b + origin] + reached

@@ -11,6 +11,8 @@ from device.simulator.kernel.layout import (
     ENCODER_SIGN,
     EVENT_HOMED,
     HOME_LEVEL,
+    HOME_RAMPED,
+    HOME_V,
     INDEX_AT,
     MODE,
     MODE_IDLE,
@@ -86,8 +88,9 @@ def creep(A: State, stage: int, direction: float) -> None:
 
 
 def search(S: State, A: State, stage: int) -> None:
-    """FE and the first stage of HM: on at SP until the home input changes, then a stop at DC."""
-    A[SLEW_V] = A[SPEED_V] * A[DIRECTION]
+    """FE (at SP) and the first stage of HM: on until the home input changes, then a stop at DC."""
+    speed = A[SPEED_V] if stage == STAGE_EDGE or A[HOME_V] == 0.0 else A[HOME_V]
+    A[SLEW_V] = speed * A[DIRECTION]
     if A[HOME_LEVEL] != A[STAGE_LEVEL]:
         A[MODE] = MODE_STOPPING
         A[STOP_CODE] = 9.0 if stage == STAGE_EDGE else 10.0
@@ -122,7 +125,10 @@ def leave_switch(S: State, A: State) -> None:
 
 
 def arrive(S: State, A: State) -> None:
-    """HM stage 3: the index pulse is position 0, and the axis is commanded there at once."""
+    """HM stage 3: the index pulse is position 0, and the axis is commanded there at once (or stops at DC)."""
+    if A[HOME_RAMPED] != 0.0:
+        find_index(S, A)
+        return
     place = index_passed(A)
     if place != NOWHERE:
         homed(S, A, place)

@@ -92,6 +92,7 @@ W_STATE, W_SLOT, W_OPERATOR, W_VALUE, W_SLOT_2, W_OPERATOR_2, W_VALUE_2 = range(
 W_KIND, W_AXIS, W_NUMBER = range(7, 10)  # as the host asked for it
 W_FIRST, W_LEFT = range(10, 12)  # the first of those that must all trip; how many of them have not (in the first only)
 NOT_LESS, NOT_MORE, EQUAL, NEVER = range(4)
+CROSSING = 5  # the kind of watch (AP) whose direction is decided anew where positions are renamed
 
 # --- guards: the loop ends after the sample in which a slot has left its range (slot, lowest, highest) ---
 GUARD = WATCH + WATCH_STRIDE * MAXIMUM_WATCHES
@@ -269,8 +270,14 @@ AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
     HALL_ORDER_2,
     HALL_ORDER_3,
     HALL_SECTOR,  # 0..5 as the controller reads its inputs, -1: no valid pattern
-) = range(160)
-DELAY_RING = 160
+    # how this controller is where the manuals leave it open
+    HOME_V,  # speed of the first stage of HM, 0: SP
+    HOME_RAMPED,  # 1: HM decelerates at the index
+    REFERENCE_BIAS,  # 0.5: RP is the nearest count, 0: the one below
+    SETTLES_AT_ONCE,  # 1: a smoothed move may end with its profile
+    READ_LATE,  # 1: TP is the encoder at the end of the sample
+) = range(165)
+DELAY_RING = 165
 MAXIMUM_DELAY = 32
 HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV
 HISTORY_LENGTH = 256

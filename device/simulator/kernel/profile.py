@@ -37,6 +37,8 @@ from device.simulator.kernel.layout import (
     POSITION,
     POSITION_SHIFT,
     REFERENCE,
+    REFERENCE_BIAS,
+    SETTLES_AT_ONCE,
     SETTLING,
     SLEW_V,
     SMOOTHED,
@@ -227,7 +229,9 @@ def smooth(A: State) -> None:
     else:
         lag = A[POSITION] - A[SMOOTHED]
         A[SMOOTHED] += smoothing * lag
-    reference = float(floor(A[SMOOTHED] + 0.5))
+    if A[SETTLES_AT_ONCE] != 0.0 and mode == MODE_SETTLING and abs(A[POSITION] - A[SMOOTHED]) < 0.5:
+        finish(A)
+    reference = float(floor(A[SMOOTHED] + A[REFERENCE_BIAS]))
     A[REFERENCE] = reference
     A[COMMANDED_LAST_V] = A[COMMANDED_V]
     A[COMMANDED_V] = (A[SMOOTHED] - A[SMOOTHED_LAST]) * SAMPLES

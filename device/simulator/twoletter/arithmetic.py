@@ -3,45 +3,61 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.evaluate import EvaluationError
+from codegen.twoletter.expression import LETTERS
 from codegen.twoletter.fixed import ONE
 from codegen.twoletter.functions import square_root
-from codegen.twoletter.nodes import Binary, Function, Statement
+from codegen.twoletter.nodes import Assign, Binary, Command, Function, Statement, Variable
+from codegen.twoletter.rows import Takes
 
 if TYPE_CHECKING:
     from device.simulator.twoletter.profile import Profile
 
 OTHER: Final = "~"  # behind a function or operator: not the default one
+DOWN: Final = "_"  # behind * and /: cut downwards
+BY_ZERO: Final = {"error 6": "", "error 9": "9", "largest number": "^"}  # behind /
 
 
-def others(profile: Profile) -> frozenset[str]:
-    """The functions and operators that this controller works out in another way."""
-    found = {"INT", "FRAC"} if profile.int_of_negative == "down" else set()
-    found |= {"RND"} if profile.round_half == "away from 0" else set()
-    found |= {"SQR"} if profile.root_of_negative == "error 6" else set()
-    found |= {"+", "-", "*"} if profile.overflow == "stops at the limit" else set()
-    return frozenset(found)
+def others(profile: Profile) -> Mapping[str, str]:
+    """The functions and operators that this controller works out in another way, and their marks here."""
+    found = dict.fromkeys(("INT", "FRAC"), OTHER) if profile.int_of_negative == "down" else {}
+    found |= {"RND": OTHER} if profile.round_half == "away from 0" else {}
+    found |= {"SQR": OTHER} if profile.root_of_negative == "error 6" else {}
+    stops = OTHER if profile.overflow == "stops at the limit" else ""
+    cut = DOWN if profile.cut == "down" else ""
+    marks = {"+": stops, "-": stops, "*": stops + cut, "/": BY_ZERO[profile.division_by_zero] + cut}
+    return found | {operator: mark for operator, mark in marks.items() if mark}
 
 
-def rewritten(statement: Statement, names: frozenset[str]) -> Statement:
-    """The statement with those functions and operators marked."""
-    found: Statement = _rewritten(statement, names)
+def rewritten(statement: Statement, names: Mapping[str, str], *, axis_assignments: bool = False) -> Statement:
+    """The statement with those functions and operators marked; with `axis_assignments` PRA=5 is PR of X."""
+    if axis_assignments and isinstance(statement, Assign) and isinstance(statement.target, Variable):
+        statement = _as_command(statement, statement.target.name)
+    found: Statement = _rewritten(statement, names) if names else statement
     return found
 
 
-def _rewritten(node: Any, names: frozenset[str]) -> Any:
+def _as_command(statement: Assign, name: str) -> Statement:
+    row, axis = COMMANDS.get(name[:2]), LETTERS.get(name[2:])
+    if len(name) != 3 or axis is None or row is None or row.takes is not Takes.AXIS_NUMBERS:
+        return statement
+    return Command(row.name, (statement.value,), axis=axis, span=statement.span)
+
+
+def _rewritten(node: Any, names: Mapping[str, str]) -> Any:
     if isinstance(node, tuple):
         return tuple(_rewritten(item, names) for item in node)
     if not dataclasses.is_dataclass(node) or isinstance(node, type):
         return node
     inner = {each.name: _rewritten(getattr(node, each.name), names) for each in dataclasses.fields(node)}
     if isinstance(node, Function) and node.name in names:
-        inner["name"] += OTHER
+        inner["name"] += names[node.name]
     if isinstance(node, Binary) and node.operator in names:
-        inner["operator"] += OTHER
+        inner["operator"] += names[node.operator]
     return dataclasses.replace(node, **inner)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from codegen.twoletter.commands import COMMANDS
 from device.simulator.twoletter.behaviour import registers
 
 if TYPE_CHECKING:
@@ -16,7 +15,7 @@ OLD_FILTER: Final = ("GN", "ZR")  # kept beside the registers that follow them
 def parameters(unit: Unit) -> dict[str, Any]:
     """The parameter set of BN (commands.md, BN contents)."""
     state = unit.state
-    saved = {name: entry for name, entry in registers.STORES.items() if COMMANDS[name[:2]].burned}
+    saved = {name: entry for name, entry in registers.STORES.items() if unit.rows[name[:2]].burned}
     registers_kept = [*(name for name, entry in saved.items() if entry.per_axis), *OLD_FILTER]
     return {
         "registers": {name: list(state.registers[name]) for name in registers_kept},
@@ -35,6 +34,7 @@ def load_parameters(unit: Unit, burned: dict[str, Any]) -> list[bool]:
     for name, values in burned["registers"].items():
         if name in state.registers and len(values) == len(state.registers[name]):
             state.registers[name] = list(values)
+    state.last_speed = list(state.registers["SP"])
     for name, value in burned["settings"].items():
         if name in state.settings:
             state.settings[name] = value

@@ -55,7 +55,7 @@ def compile_program(lines: tuple[str, ...], unit: Unit) -> Code:
     code = Code(lines=lines)
     for number, text in enumerate(lines):
         code.start_of.append(len(code.ops))
-        for statement in parse_line(text).statements:
+        for statement in parse_line(text, unit.profile.bracket_levels).statements:
             if isinstance(statement, Label):
                 code.labels.setdefault(statement.name, len(code.ops))
             elif takes_time(statement):
@@ -77,7 +77,9 @@ def _when_run(statement: Statement, pc: int, unit: Unit, code: Code) -> Op:
 
 def compile_line(text: str, unit: Unit) -> list[Op]:
     """A line from a port; each op is one prompt."""
-    found: list[Statement] = [item for item in parse_line(text).statements if not isinstance(item, Nothing)]
+    found: list[Statement] = [
+        item for item in parse_line(text, unit.profile.bracket_levels).statements if not isinstance(item, Nothing)
+    ]
     found = found or [Nothing()]
     return [
         compile_statement(statement, index + 1, unit, None, from_port=True) for index, statement in enumerate(found)
@@ -91,8 +93,9 @@ def takes_time(statement: Statement) -> bool:
 
 def compile_statement(statement: Statement, following: int, unit: Unit, code: Code | None, *, from_port: bool) -> Op:
     """One statement as an op that answers `following` or where it jumps to."""
-    if unit.worked_out:
-        statement = rewritten(statement, unit.worked_out)
+    by_axis = unit.profile.axis_assignment == "command"
+    if unit.worked_out or by_axis:
+        statement = rewritten(statement, unit.worked_out, axis_assignments=by_axis)
     if isinstance(statement, Broken | Foreign):
         return _refuse(statement.code)
     if isinstance(statement, Comment) and statement.mark != "NO":

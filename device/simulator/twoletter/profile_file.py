@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from device.simulator.twoletter.profile import DEFAULTS, SETTINGS, Profile, ProfileWrong, Value, allowed, check, shown
+from device.simulator.twoletter.profile import DEFAULTS, SETTINGS, Profile, ProfileWrong, allowed, check, shown
+from device.simulator.twoletter.setting import Value
 
 TABLES = ("codes", "commands")
 

@@ -95,6 +95,7 @@ def _load_profile(unit: Unit) -> None:
             state.registers[name] = [value] * len(unit.model.axes)
         elif name in state.settings:
             state.settings[name] = value
+    state.last_speed = list(state.registers["SP"])
 
 
 def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
@@ -105,6 +106,7 @@ def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
     for axis in unit.axes():
         motion.set_gear_master(axis, kind, axis)
         motion.set(axis, Register.GEAR_RATIO, 0.0)
+        registers.follow_profile(unit, axis)
     motion.cam.master(0, auxiliary=unit.model.family != "ssc")
     motion.set_limit_polarity(state.switches[0] == 1)
     motion.set_outputs(state.outputs)

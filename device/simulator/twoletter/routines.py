@@ -21,7 +21,7 @@ def watched(unit: Unit) -> bool:
 def call_due(unit: Unit) -> tuple[bool, bool]:
     """#LIMSWI, #POSERR and #ININT are called while their condition holds: whether one was, and whether one holds."""
     state, motion, main = unit.state, unit.clock.motion, unit.state.threads[0]
-    at_limit = any(motion.driving_into_limit(axis) for axis in unit.axes())
+    at_limit = any(_limit_calls(unit, axis) for axis in unit.axes())
     beyond = any(motion.error_exceeded(axis) for axis in unit.axes())
     low = bool(state.interrupt_armed and ~state.inputs & state.interrupt_mask)
     holds = at_limit or beyond or low
@@ -32,6 +32,16 @@ def call_due(unit: Unit) -> tuple[bool, bool]:
             unit.call(main, label, main.pc)
             return True, holds
     return False, holds
+
+
+def _limit_calls(unit: Unit, axis: int) -> bool:
+    """The axis is driven into a limit switch, or (software_limit_routine) into FL or BL."""
+    motion = unit.clock.motion
+    direction = motion.driving_into_limit(axis)
+    if not direction or unit.profile.software_limit_routine:
+        return direction != 0
+    level = motion.forward_level(axis) if direction > 0 else motion.reverse_level(axis)
+    return level == (unit.state.switches[0] == 1)
 
 
 def call_comint(unit: Unit) -> None:

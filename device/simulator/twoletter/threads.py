@@ -247,11 +247,12 @@ class Interpreter:
             return True
         thread.line, thread.traced = line, True
         labels = [number for number in range(line) if first and unit.code.start_of[number] == thread.pc]
+        labels = labels if unit.profile.trace_labels else []
         for number in (*labels, line):  # a line of labels only is passed on the way
             if unit.records.on_trace is not None:
                 unit.records.on_trace(unit.clock.now, thread.number, number)
             if unit.state.settings["TR"] and number < len(unit.code.lines):
-                unit.unsolicited(1, f"{number:03d} {unit.code.lines[number]}\r\n")
+                unit.unsolicited(1, unit.listed(number) + "\r\n")
                 self._stall(thread)
         return thread.wait is None
 

@@ -181,7 +181,8 @@ class Unit:
 
     def current_line(self, thread: Thread) -> int:
         """The line a thread is on: while it waits, the one with the trippoint."""
-        pc = thread.pc - 1 if thread.wait is not None and thread.pc > 0 else thread.pc
+        behind = self.profile.waiting_line == "the trippoint's" and thread.wait is not None and thread.pc > 0
+        pc = thread.pc - 1 if behind else thread.pc
         return self.code.line(pc)
 
     def line_ops(self, text: str) -> list[Op]:
@@ -192,6 +193,10 @@ class Unit:
                 self._lines.clear()
             ops = self._lines[text] = compile_line(text, self)
         return ops
+
+    def listed(self, number: int) -> str:
+        """A line of the program as LS and TR send it (dmc-1412-1414.txt l.2474)."""
+        return f"{number:03d}{' ' if ' ' in self.profile.listed_line else ''}{self.code.lines[number]}"
 
     # ----------------------------------------------------------------- answers
 
@@ -318,7 +323,8 @@ class Unit:
         if thread is not main or not handled:
             self.halt(thread.number)
         if handled:
-            self.call(main, "CMDERR", min(pc + 1, len(self.code.ops) - 1) if thread is main else main.pc)
+            onward = pc + (self.profile.command_error_return == "next command")
+            self.call(main, "CMDERR", min(onward, len(self.code.ops) - 1) if thread is main else main.pc)
         else:
             self.records.unhandled += 1
             self.unsolicited(1, f"?{line:03d} {source}\r\n")

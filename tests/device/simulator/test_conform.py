@@ -16,7 +16,7 @@ from device.simulator.twoletter.profile_file import profile_text, read_profile
 from device.transport.loopback import Loopback
 from tests.long import is_long
 
-NUMBERS = {"line_characters": 60, "serial_number": 4711, "labels": 200}
+NUMBERS = {"line_characters": 60, "serial_number": 4711, "labels": 200, "bracket_levels": 7}
 TEXTS = {"revision": "Rev 1.0i"}
 FORMATS = {name: row.reply for name, row in COMMANDS.items() if row.reply not in (None, "PF")}
 LIMITS = [("TW", 32766), ("TW", 40000), ("VA", 1024000), ("VA", 68431872), ("VR", 5), ("VR", 20)]

@@ -51,7 +51,12 @@ def calibrate(unit: Unit, strand: Strand, call: Call) -> None:
 def phase(unit: Unit, strand: Strand, call: Call) -> None:
     """BD degrees: the phase here."""
     _must_be_brushless(unit)
-    unit.motion.commutation.set_phase(0, _volts_or_degrees(unit, call))
+    unit.motion.commutation.set_phase(0, _volts_or_degrees(unit, call) / _phase_unit(unit))
+
+
+def _phase_unit(unit: Unit) -> float:
+    """What a degree is in BD and _BD (phase_operand)."""
+    return 1.0 if unit.profile.phase_operand == "degrees" else unit.state.registers["BM"][0] / ONE / 360.0
 
 
 def _volts_or_degrees(unit: Unit, call: Call) -> float:
@@ -166,7 +171,7 @@ def turn(unit: Unit, strand: Strand, wait: Wait) -> None:
 DOES: Final = {"BA": brushless_axis, "BC": calibrate, "BD": phase, "BS": setup, "BZ": zero}
 READS: Final = {
     "BC": lambda unit, axis: hall_test.bits(unit) * ONE,
-    "BD": lambda unit, axis: scaled(unit.motion.commutation.phase(0)),
+    "BD": lambda unit, axis: scaled(unit.motion.commutation.phase(0) * _phase_unit(unit)),
     "BZ": lambda unit, axis: unit.motion.commutation.counts_to_zero(0) * ONE,
 }
 ENDS: Final = {"BZ": look, "BS": turn}

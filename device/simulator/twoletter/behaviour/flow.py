@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from codegen.twoletter.evaluate import compile_expression
+from codegen.twoletter.evaluate import EvaluationError, compile_expression
 from codegen.twoletter.fixed import ONE
 from codegen.twoletter.nodes import Command, Expression, Target
 from device.simulator.twoletter.state import CommandError, Frame, Strand, Thread
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
 Op: TypeAlias = Callable[[Strand], int]
-UNDEFINED_LABEL, BAD_LINE, TOO_DEEP, OPERAND_ERROR = 10, 11, 12, 4
+BAD_LINE, TOO_DEEP, NO_OPERAND = 11, 12, 58
 
 
 def destination(target: Target, unit: Unit, code: Code | None) -> Callable[[], int]:
@@ -29,7 +29,7 @@ def destination(target: Target, unit: Unit, code: Code | None) -> Callable[[], i
             try:
                 return (code or unit.code).labels[label]
             except KeyError:
-                raise CommandError(UNDEFINED_LABEL) from None
+                raise CommandError(unit.profile.unknown_label_code) from None
 
         return by_label
     if target.line is None:
@@ -226,7 +226,14 @@ def running_state(unit: Unit, number: int) -> int:
     thread = _thread(unit, number)
     if not thread.running:
         return 0
-    return ONE if thread.wait is None else 2 * ONE
+    return 2 * ONE if thread.wait is not None and unit.profile.waiting_operand else ONE
+
+
+def stack_depth(unit: Unit, number: int) -> int:
+    """_ZSn: how many returns wait."""
+    if not unit.profile.stack_operand:
+        raise EvaluationError(NO_OPERAND)
+    return len(_thread(unit, number).stack) * ONE
 
 
 COMPILES: Final = {
@@ -242,5 +249,5 @@ DOES: Final = {"HX": halt}
 READS: Final = {
     "XQ": line_of,
     "HX": running_state,
-    "ZS": lambda unit, number: len(_thread(unit, number).stack) * ONE,
+    "ZS": stack_depth,
 }

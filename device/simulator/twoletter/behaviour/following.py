@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
-OWN_MASTER, NO_TIME, RECORD_RANGE = 46, 39, 41
+OWN_MASTER, RECORD_RANGE = 46, 41
 CAM_RUNS, BAD_INDEX, NO_MASTER, CYCLE_TOO_LONG, SLAVE_RUNS, NOT_ENABLED = 100, 101, 102, 103, 104, 105
 LONGEST_CYCLE: Final = 8_388_607
 TABLE_END: Final = 256
@@ -83,12 +83,12 @@ def contour_data(unit: Unit, strand: Strand, call: Call) -> None:
     given = numbers(unit, call)
     contour = unit.motion.contour
     if not unit.state.contour_timed:
-        raise CommandError(NO_TIME)
+        raise CommandError(unit.profile.contour_untimed_code)
     if not contour.active or any(value and not contour.has(axis) for axis, value in given):
         raise CommandError(RECORD_RANGE)
     if not contour.free:
         if isinstance(strand, Port):
-            raise CommandError(7)
+            raise CommandError(unit.profile.contour_full_code)
         watch = unit.motion.watch(Watch.CONTOUR_FREE)
         raise NotYet(Wait("CD", watches=(watch,)))
     contour.give({axis: value // ONE for axis, value in given}, unit.state.settings["DT"] // ONE)
@@ -100,7 +100,8 @@ def contour_data(unit: Unit, strand: Strand, call: Call) -> None:
 def cam_master(unit: Unit, strand: Strand, call: Call) -> None:
     """EA: the axis whose encoder the cam follows (SSC)."""
     _not_running(unit)
-    unit.motion.cam.master(call.axes[0], auxiliary=False)
+    commanded = unit.profile.cam_follows == "commanded position"
+    unit.motion.cam.master(call.axes[0], auxiliary=False, commanded=commanded)
     unit.state.cam_master = call.axes[0]
 
 

@@ -80,7 +80,7 @@ def ask(command: Command, following: int, unit: Unit, code: Code | None) -> Op:
         element = -1 if index is None else index(unit.names) // ONE
         if element >= 0:
             memory.element(unit.state, name, element)
-        unit.unsolicited(port, prompt, ends=True)
+        unit.unsolicited(port, prompt + ("\r\n" if unit.profile.prompt_ends_line else ""), ends=True)
         strand.wait = Wait("input", number=port, variable=name, element=element, characters=characters)
         unit.changed = True
         return following

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.fixed import ONE
+from device.simulator.twoletter.behaviour import limits, registers
 from device.simulator.twoletter.behaviour.sequences import begin_sequence
 from device.simulator.twoletter.state import CommandError, Port, Strand
 
@@ -17,12 +18,15 @@ MOTOR_OFF, ALREADY_MOVING, AT_LIMIT, BAD_INCREMENT, CONTOURING = 20, 21, 22, 16,
 
 
 def begin(unit: Unit, strand: Strand, call: Call) -> None:
-    """BG: all named axes start, or none (inferred)."""
-    for axis in call.axes:
+    """BG: all named axes start, or none (begins_as_a_whole)."""
+    whole = unit.profile.begins_as_a_whole
+    for axis in call.axes if whole else ():
         _check_begin(unit, axis)
     if call.sequence:
         begin_sequence(unit)
     for axis in call.axes:
+        if not whole:
+            _check_begin(unit, axis)
         _begin_axis(unit, axis)
 
 
@@ -37,6 +41,8 @@ def _check_begin(unit: Unit, axis: int) -> None:
     direction = _direction(unit, axis)
     if direction and motion.blocked(axis, direction):
         raise CommandError(AT_LIMIT)
+    if unit.state.modes[axis] in ("PA", "PR"):
+        limits.check_begin(unit, axis, _target(unit, axis))
 
 
 def _target(unit: Unit, axis: int) -> int:
@@ -69,7 +75,7 @@ def _begin_axis(unit: Unit, axis: int) -> None:
         motion.begin_edge(axis, bool(home_state(unit, axis)) == (unit.profile.edge_direction == "table"))
     elif mode == "FI":
         direction = -1 if state.registers["JG"][axis] < 0 else 1
-        motion.begin_index(axis, abs(state.last_speed[axis]) / ONE, direction)
+        motion.begin_index(axis, registers.chosen_speed(unit, axis, unit.profile.index_speed) / ONE, direction)
     else:
         motion.begin_position(axis, _target(unit, axis))
 
@@ -115,6 +121,7 @@ def increment(unit: Unit, strand: Strand, call: Call) -> None:
             raise CommandError(MOTOR_OFF)
     for axis, value in _numbers(unit, call):
         counts = value // ONE
+        limits.refuse(unit, axis, unit.motion.target(axis) + counts)
         unit.state.registers["IP"][axis] = value
         motion = unit.motion
         if motion.moving(axis):
@@ -163,6 +170,12 @@ def home_state(unit: Unit, axis: int) -> bool:
     return unit.motion.home_level(axis) != (unit.state.switches[1] == 1)
 
 
+def _limit(unit: Unit, level: bool) -> int:
+    """_LF and _LR: the input's level; or whether the limit is not active (the same with CN -1)."""
+    other = unit.profile.limit_operand == "not active" and unit.state.switches[0] == 1
+    return ONE if level != other else 0
+
+
 def position_target(unit: Unit, axis: int) -> int:
     """_PA: the target while moving, else the last commanded stop."""
     motion = unit.motion
@@ -209,8 +222,8 @@ READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     "HM": lambda unit, axis: ONE if home_state(unit, axis) else 0,
     "AB": lambda unit, axis: ONE if unit.state.abort_input else 0,
     "IP": lambda unit, axis: unit.state.registers["IP"][axis],
-    "_LF": lambda unit, axis: int(unit.motion.forward_level(axis)) * ONE,
-    "_LR": lambda unit, axis: int(unit.motion.reverse_level(axis)) * ONE,
-    "LF": lambda unit, axis: int(unit.motion.forward_level(axis)) * ONE,
-    "LR": lambda unit, axis: int(unit.motion.reverse_level(axis)) * ONE,
+    "_LF": lambda unit, axis: _limit(unit, unit.motion.forward_level(axis)),
+    "_LR": lambda unit, axis: _limit(unit, unit.motion.reverse_level(axis)),
+    "LF": lambda unit, axis: _limit(unit, unit.motion.forward_level(axis)),
+    "LR": lambda unit, axis: _limit(unit, unit.motion.reverse_level(axis)),
 }

@@ -85,7 +85,7 @@ def list_program(command: Command, following: int, unit: Unit, code: Code | None
         first = _line_number(targets[0], unit) if targets else 0
         last = _line_number(targets[1], unit) if len(targets) > 1 else len(program) - 1
         for number in range(first, min(last + 1, len(program))):
-            unit.answer(strand, f"{number:03d} {program[number]}")
+            unit.answer(strand, unit.listed(number))
         return following
 
     return op

@@ -11,6 +11,7 @@ from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from codegen.twoletter.rows import Takes
 from device.simulator.motion import Register
+from device.simulator.twoletter.behaviour import limits
 from device.simulator.twoletter.state import CommandError, State
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ class Store:
     per_axis: bool = True
     register: Register | None = None
     apply: Callable[[Unit, int, int], None] | None = None  # (unit, axis, scaled value) after storing
-    check: Callable[[Unit, int, int], None] | None = None  # refuses a value that the machine does not allow
+    check: Callable[[Unit, str, int, int], None] | None = None  # refuses a value that the machine does not allow
 
 
 def _follow(register: Register) -> Store:
@@ -41,13 +42,37 @@ def _mode(name: str, register: Register | None = None) -> Store:
     def choose(unit: Unit, axis: int, value: int) -> None:
         unit.state.modes[axis] = name
         if name == "JG":
-            unit.state.last_speed[axis] = value
+            _speed(unit, axis, value)
 
-    return Store(register=register, apply=choose)
+    return Store(register=register, apply=choose, check=limits.check_target if name != "JG" else None)
 
 
 def _speed(unit: Unit, axis: int, value: int) -> None:
     unit.state.last_speed[axis] = value
+    follow_home_speed(unit, axis)
+
+
+def chosen_speed(unit: Unit, axis: int, which: str) -> int:
+    """The speed of HM or FI: that of SP, of JG, or of the last of both (dmc-1412-1414.txt l.2323)."""
+    state = unit.state
+    return abs(state.last_speed[axis] if " " in which else state.registers[which][axis])
+
+
+def follow_profile(unit: Unit, axis: int) -> None:
+    """How the sample loop is where the manuals leave it open."""
+    profile, motion = unit.profile, unit.motion
+    for register, value in (
+        (Register.HOME_RAMPED, profile.home_end == "decelerates"),
+        (Register.REFERENCE_BIAS, 0.5 if profile.reference_rounding == "nearest" else 0.0),
+        (Register.SETTLES_AT_ONCE, not profile.smoothing_tail),
+        (Register.READ_LATE, profile.position_read == "sample end"),
+    ):
+        motion.set(axis, register, float(value))
+    follow_home_speed(unit, axis)
+
+
+def follow_home_speed(unit: Unit, axis: int) -> None:
+    unit.motion.set(axis, Register.HOME_SPEED, chosen_speed(unit, axis, unit.profile.home_speed) / ONE)
 
 
 def _sample_time(unit: Unit, axis: int, value: int) -> None:
@@ -89,7 +114,7 @@ def _phase(setter: str, whole: bool = False) -> Store:
     return Store(apply=follow)
 
 
-def _needs_jumper(unit: Unit, axis: int, value: int) -> None:
+def _needs_jumper(unit: Unit, name: str, axis: int, value: int) -> None:
     """Stepper types need the SM jumper (SSC manual l.772)."""
     if abs(value) >= STEPPER and not unit.stepper_jumpers[axis]:
         raise CommandError(NO_JUMPER)
@@ -198,7 +223,7 @@ def store(unit: Unit, call: Call) -> None:
         if not row.accepts(value, unit.model, stepper):
             raise CommandError(6)
         if entry.check is not None:
-            entry.check(unit, axis, value)
+            entry.check(unit, name, axis, row.stored(value))
         accepted.append((axis, row.stored(value)))
     for axis, value in accepted:
         put(unit, name, axis, value)

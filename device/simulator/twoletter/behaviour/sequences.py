@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
-NO_SEQUENCE, COORDINATED_RUNS, MOTOR_OFF, MOVING, BAD_PLANE = 24, 29, 20, 21, 28
+NO_SEQUENCE, COORDINATED_RUNS, MOTOR_OFF, MOVING, BAD_PLANE, EMPTY = 24, 29, 20, 21, 28, 30
+TOO_FEW: Final = 50
 LONGEST_ARC: Final = 450_000_000  # radius times sweep, counts and degrees (commands.md 7)
 SHORTEST_SWEEP: Final = 0.0001
 
@@ -40,14 +41,19 @@ def linear_segment(unit: Unit, strand: Strand, call: Call) -> None:
     if path.opened != "linear":
         raise CommandError(33 if path.opened else NO_SEQUENCE)
     counts = {axis: value // ONE for axis, value in numbers(unit, call)}
-    _added(path.line(counts, _speed(call)))
+    _added(unit, path.line(counts, _speed(unit, call)))
 
 
-def _speed(call: Call) -> float | None:
-    return None if call.speed is None else call.speed / ONE // 2 * 2
+def _speed(unit: Unit, call: Call) -> float | None:
+    """The speed given with a segment; without one that of the segment before it, or VS (segment_speed_stays)."""
+    if call.speed is None:
+        return None if unit.profile.segment_speed_stays else unit.state.settings["VS"] / ONE
+    return call.speed / ONE // 2 * 2
 
 
-def _added(error: int) -> None:
+def _added(unit: Unit, error: int) -> None:
+    if error == EMPTY and unit.profile.empty_segment == "left out":
+        return
     if error:
         raise CommandError(error)
 
@@ -59,6 +65,8 @@ def vector_mode(unit: Unit, strand: Strand, call: Call) -> None:
     axes = [AXES.find(letter) for letter in letters]
     if any(axis >= len(unit.model.axes) for axis in axes):
         raise CommandError(90)
+    if len(axes) == 2 and unit.profile.plane_needs_tangent:
+        raise CommandError(TOO_FEW)
     if len(axes) < 2 or axes[0] == axes[1] or min(axes[:2]) < 0:
         raise CommandError(BAD_PLANE)
     unit.motion.path.vector(axes[0], axes[1], axes[2] if len(axes) > 2 and axes[2] >= 0 else None)
@@ -74,7 +82,7 @@ def vector_point(unit: Unit, strand: Strand, call: Call) -> None:
     """VP: a straight line to a point of the plane."""
     _vector(unit)
     (_, first), (_, second) = _all(unit, call, 2)
-    _added(unit.motion.path.point(first // ONE, second // ONE, _speed(call)))
+    _added(unit, unit.motion.path.point(first // ONE, second // ONE, _speed(unit, call)))
 
 
 def arc(unit: Unit, strand: Strand, call: Call) -> None:
@@ -84,7 +92,7 @@ def arc(unit: Unit, strand: Strand, call: Call) -> None:
     degrees = sweep / ONE
     if abs(degrees) < SHORTEST_SWEEP or abs(degrees) * (radius // ONE) > LONGEST_ARC:
         raise CommandError(6)
-    _added(unit.motion.path.arc(radius // ONE, start / ONE, degrees, _speed(call)))
+    _added(unit, unit.motion.path.arc(radius // ONE, start / ONE, degrees, _speed(unit, call)))
 
 
 def _all(unit: Unit, call: Call, count: int) -> list[tuple[int, int]]:
@@ -106,9 +114,9 @@ def clear_sequence(unit: Unit, strand: Strand, call: Call) -> None:
 
 
 def ellipse(unit: Unit, strand: Strand, call: Call) -> None:
-    """ES m,n: stretches the first or the second axis."""
+    """ES m,n: stretches the first or the second axis, or (ellipse) makes it go less far."""
     (_, first), (_, second) = _all(unit, call, 2)
-    unit.motion.path.set_scale(first / ONE, second / ONE)
+    unit.motion.path.set_scale(first / ONE, second / ONE, shrinks=unit.profile.ellipse == "shrinks")
 
 
 def tangent(unit: Unit, strand: Strand, call: Call) -> None:
@@ -144,6 +152,12 @@ def after_distance(unit: Unit, strand: Strand, call: Call) -> Wait | None:
     return wait
 
 
+def sequence_length(unit: Unit, axis: int) -> int:
+    """_LE and _VE."""
+    path = unit.motion.path
+    return int(path.length if unit.profile.sequence_length == "all segments" else path.to_come) * ONE
+
+
 def _path(read: str) -> Callable[[Unit, int], int]:
     def value(unit: Unit, axis: int) -> int:
         return int(getattr(unit.motion.path, read)) * ONE
@@ -165,8 +179,8 @@ DOES: Final = {
 }
 READS: Final[dict[str, Callable[[Unit, int], int]]] = {
     "LM": _path("free"),
-    "LE": _path("length"),
-    "VE": _path("length"),
+    "LE": sequence_length,
+    "VE": sequence_length,
     "CS": _path("segment"),
     "AV": _path("travelled"),
     "TN": _path("tangent_start"),

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.calls import Call
     from device.simulator.twoletter.unit import Unit
 
+ONLY_BY_DISTANCE: Final = {
+    Watch.AFTER_DISTANCE: Watch.AFTER_DISTANCE_ONLY,
+    Watch.AFTER_RELATIVE: Watch.AFTER_RELATIVE_ONLY,
+}
 Waits: TypeAlias = Callable[["Unit", Strand, "Call"], Wait | None]
 
 
@@ -40,10 +44,15 @@ def _by_number(name: str, kind: Watch) -> Waits:
             if value is not None:
                 if not call.row.accepts(value, unit.model):
                     raise CommandError(6)
-                return _watch(unit, name, [(kind, axis, float(value // ONE))])
+                return _watch(unit, name, [(_kind(unit, kind), axis, float(value // ONE))])
         raise CommandError(50)
 
     return wait
+
+
+def _kind(unit: Unit, kind: Watch) -> Watch:
+    """AD and AR of a controller where the end of the move does not end them."""
+    return kind if unit.profile.distance_ends_with_move else ONLY_BY_DISTANCE.get(kind, kind)
 
 
 def _watch(unit: Unit, name: str, wanted: list[tuple[Watch, int, float]]) -> Wait | None:
