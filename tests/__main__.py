@@ -22,6 +22,12 @@ CHECKS = (
     ("ruff format", ("-m", "ruff", "format", "--check", "--quiet", ".")),
     ("mypy --strict", ("-m", "mypy", "--strict", "codegen", "device")),
 )
+# title, marks, processes; what waits for a line leaves the processors free, so that several of them fit side by side
+PARTS = (
+    ("tests", "not alone and not paced", 2),
+    ("tests that wait for a line or a clock", "paced and not alone", 5),
+    ("tests that measure time", "alone", 0),
+)
 NOTHING_COLLECTED = 5
 
 
@@ -82,9 +88,9 @@ def summary(totals: Totals, seconds: float) -> str:
     return f" {', '.join(words) or 'nothing ran'} in {seconds:.2f}s ".center(100, "=")
 
 
-def workers() -> list[str]:
-    """Two test processes where the plug-in is there."""
-    return ["-n", "2"] if importlib.util.find_spec("xdist") else []
+def workers(number: int) -> list[str]:
+    """So many test processes where the plug-in is there; each takes its next test when it has ended one."""
+    return ["-n", str(number), "--dist", "worksteal"] if number and importlib.util.find_spec("xdist") else []
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -105,8 +111,8 @@ def main(argv: list[str] | None = None) -> int:
         for name, arguments in CHECKS:
             run_check(name, arguments, totals)
         chosen = [*options.rest, *extra]
-        run_tests("tests", [*workers(), "-m", "not alone", *limit, *chosen], environment, totals)
-        run_tests("tests that measure time", ["-m", "alone", *limit, *chosen], environment, totals)
+        for title, marks, number in PARTS:
+            run_tests(title, [*workers(number), "-m", marks, *limit, *chosen], environment, totals)
         if options.long:
             print(f"{len(collect(Path(figures)))} figures in tests/long/results.json")
             write_table()

@@ -44,7 +44,7 @@ REST: dict[str, tuple[str, ...]] = {
     "a jog was stopped": ("JG 1000", "BG X", "ST X"),
 }
 
-pytestmark = [pytest.mark.alone, pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals")]
+pytestmark = [pytest.mark.paced, pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals")]
 
 
 @pytest.fixture

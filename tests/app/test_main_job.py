@@ -49,7 +49,7 @@ CHARACTER_S = 10 / BAUD  # a start bit, eight data bits, a stop bit (ssc-tol-o-m
 TURNS = 5
 TICK_S = 1 / 1_024_000  # the simulator counts time in these
 
-pytestmark = pytest.mark.alone
+pytestmark = pytest.mark.paced
 
 
 @pytest.fixture

@@ -7,7 +7,8 @@ computer it runs, beside whatever else goes on there; it fails where a figure is
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import pytest
 
@@ -18,6 +19,7 @@ from tests.long import is_long, record
 
 COMMAND = "python -m tests.benchmarks"
 NEEDS_LINUX = ("served_idle", "served_with_axes_and_threads", "download_shares")
+PACED = () if is_long() else NEEDS_LINUX  # they sleep, or wait for the line; the figures to keep are taken alone
 SLACK = 2.0
 
 
@@ -38,8 +40,16 @@ def skip_elsewhere(name: str) -> None:
         pytest.skip("measured on Linux")
 
 
-@pytest.mark.alone
-@pytest.mark.parametrize("measure", SINGLE, ids=lambda each: each.__name__)
+def marked(measures: Sequence[Callable[[], Any]]) -> list[Any]:
+    """Each with its mark and its name."""
+    names = [(each, each.__name__) for each in measures]
+    return [
+        pytest.param(each, id=name, marks=pytest.mark.paced if name in PACED else pytest.mark.alone)
+        for each, name in names
+    ]
+
+
+@pytest.mark.parametrize("measure", marked(SINGLE))
 def test_speed(measure: Callable[[], Figure]) -> None:
     skip_elsewhere(measure.__name__)
     figure = measure()
@@ -49,8 +59,7 @@ def test_speed(measure: Callable[[], Figure]) -> None:
     assert kept(figure), str(figure)
 
 
-@pytest.mark.alone
-@pytest.mark.parametrize("measure", SEVERAL, ids=lambda each: each.__name__)
+@pytest.mark.parametrize("measure", marked(SEVERAL))
 def test_speeds(measure: Callable[[], list[Figure]]) -> None:
     skip_elsewhere(measure.__name__)
     figures = measure()

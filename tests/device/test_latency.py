@@ -149,7 +149,7 @@ def test_latency_of_stop(baud: int) -> None:
 STATES = ((), ("DL", "#A"), ("QD Q[],0,9", "1"), ("ED",), ("XQ #B",))
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 @pytest.mark.parametrize("pty", [False, pytest.param(True, marks=NO_PTY)])
 def test_stop_over_real_ports(pty: bool) -> None:
     """An axis jogs, and the port is in command mode, takes a program, an array, an editor's line, an answer."""

@@ -75,7 +75,7 @@ def on_the_wire(controller: Controller, data: bytes) -> None:
     time.sleep(0.05)
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 def test_stop_through_a_line_that_the_controller_holds_by_xoff() -> None:
     """A program sends character 19: this computer's port takes it for XOFF and lets nothing out any more."""
     line = LineSettings(baud=19200, handshake="xon")
@@ -95,7 +95,7 @@ def test_stop_through_a_line_that_the_controller_holds_by_xoff() -> None:
             controller.close()
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 def test_stop_from_what_stands_on_the_wire() -> None:
     """Our XOFF to the controller, half a line, a download begun behind the link's back, a port that is busy."""
     with connected(19200, pty=True) as (process, controller):

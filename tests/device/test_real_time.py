@@ -31,7 +31,7 @@ while True:
 """
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 @pytest.mark.parametrize("baud", [9600, 38400])
 def test_questions_get_exactly_their_answers_with_everything_read(baud: int) -> None:
     with connected(baud) as (process, controller):

@@ -9,7 +9,7 @@ import pytest
 from app.__main__ import main
 from device.simulator.process import SimulatorProcess
 
-pytestmark = pytest.mark.alone
+pytestmark = pytest.mark.paced
 
 
 def test_download_to_one_of_a_chain(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -182,7 +182,7 @@ def test_run_in_real_time(tmp_path: Path) -> None:
 # ----------------------------------------------------------------- simulate
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 def test_simulate_with_everything(tmp_path: Path) -> None:
     profile, eeprom, plant = tmp_path / "mine.toml", tmp_path / "burned", tmp_path / "p.toml"
     profile.write_text('revision = "Rev 7.7q"\n')
@@ -231,7 +231,7 @@ def test_simulate_on_a_pseudo_terminal() -> None:
 # ---------------------------------------------------------------- line tools
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 def test_line_tools_on_a_chain(source: Path, tmp_path: Path) -> None:
     kept = tmp_path / "kept.dmc"
     with served("--controller", "ssc1", "--chain", "2") as (address,):
@@ -255,7 +255,7 @@ def test_line_tools_on_a_chain(source: Path, tmp_path: Path) -> None:
         assert typed.stdout.splitlines()[0].strip() == "042" and "Unrecognized command" in typed.stdout
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 def test_conform(tmp_path: Path) -> None:
     flipped, found = tmp_path / "flipped.toml", tmp_path / "found.toml"
     flipped.write_text('status_sign = true\necho_return = "CR"\n')
@@ -277,7 +277,7 @@ def test_conform(tmp_path: Path) -> None:
         assert moving.stderr.endswith("X moves; wait until everything stands and try again\n")
 
 
-@pytest.mark.alone
+@pytest.mark.paced
 @pytest.mark.long
 def test_conform_with_the_simulator(tmp_path: Path) -> None:
     done = subprocess.run(

@@ -12,7 +12,7 @@ import pytest
 
 from device.simulator.process import SimulatorFailed, SimulatorProcess
 
-pytestmark = pytest.mark.alone
+pytestmark = pytest.mark.paced
 
 
 def connect(address: str) -> socket.socket:
@@ -112,6 +112,7 @@ def test_port_2_of_a_chain_is_that_of_its_last_controller() -> None:
         assert until(end, b"\r\n") == b"END\r\n"
 
 
+@pytest.mark.alone
 def test_real_time_is_kept() -> None:
     with SimulatorProcess("ssc1") as simulator:
         client = connect(simulator.address)
@@ -123,6 +124,7 @@ def test_real_time_is_kept() -> None:
         assert time.monotonic() - began == pytest.approx(0.5, abs=0.15)
 
 
+@pytest.mark.alone
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
 def test_a_paced_pseudo_terminal() -> None:
     import os
