@@ -11,17 +11,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from codegen.models import MODELS, Model
-from device import commands, live
+from device import commands, jog, live
 from device.asking import Listing, Prompt, Waiting
 from device.clock import Clock
 from device.commands import Reply
 from device.door import Door
 from device.download import Downloaded, DownloadFailed, Job, program_lines
-from device.hands import Io, Memory, Motion
+from device.hands import Io, Memory
 from device.happenings import Badge, Kind, Notice, NoticeKind, State
 from device.identify import Identity, mismatch, read_once, who
+from device.jog import Places, Plan, Routine
+from device.lease import Ran
 from device.link import Link, Traffic
 from device.meeting import Events
+from device.moving import Ended, Motion, NeedsConfirmation
 from device.own import OwnSimulator
 from device.poll import Poller
 from device.ring import EMPTY, Row
@@ -42,24 +45,31 @@ __all__ = [
     "Controller",
     "DownloadFailed",
     "Downloaded",
+    "Ended",
     "Identity",
     "Job",
     "Kind",
     "LineSettings",
     "LinkError",
     "LinkLost",
+    "NeedsConfirmation",
     "NotAllowed",
     "Notice",
     "NoticeKind",
     "OwnSimulator",
+    "Places",
+    "Plan",
     "Prompt",
+    "Ran",
     "Refused",
     "Reply",
+    "Routine",
     "Row",
     "State",
     "StopState",
     "Stopped",
     "Traffic",
+    "jog",
 ]
 T = TypeVar("T")
 
@@ -117,6 +127,7 @@ class Controller:
         self._events = Events(self)
         self.link = Link(opener or _no_transport, self.line, self._events, self.door, clock)
         self.link.wire.manners = manners or self.link.wire.manners
+        self.link.last_words = self.motion.last_words
         if opener is not None and threaded:
             self.link.start()
 
@@ -160,14 +171,18 @@ class Controller:
         return self.door.control
 
     def take_control(self) -> None:
-        self._used = self.clock()
+        self.used()
         if not self.door.control and self.kind is not Kind.OFFLINE:
             self.door.control = True
             self.notify(NoticeKind.CONTROL, "Control taken.")
 
+    def used(self) -> None:
+        """A person did something: the idle time begins again."""
+        self._used = self.clock()
+
     def release_control(self, why: str = "Watch: only reading and STOP.") -> None:
         self.io_control = False
-        self.motion.release()
+        self.motion.let_go()
         if self.door.control:
             self.door.control = False
             self.notify(NoticeKind.CONTROL, why)
@@ -176,7 +191,6 @@ class Controller:
         self.io_control = on and self.control
 
     def close(self) -> None:
-        self.motion.release()
         self.link.close()
         if self.simulator is not None:
             self.simulator.close()
@@ -231,7 +245,7 @@ class Controller:
             then(False)
             return
         again = self._stopping is not None or self._stop_state is StopState.STOPPING
-        self.motion.release()
+        self.motion.let_go()
         self._stopping, self._stop_pressed_at = None, self.clock()
         self.show_stop(StopState.STOPPING)
         self.link.stop(lambda sure: self._stop_steps(sure, again, then))
@@ -290,7 +304,7 @@ class Controller:
 
     def ask(self, command: str, timeout_s: float | None = None) -> Future[Reply]:
         """One line as a person types it; the reply says whether it was accepted, and why not."""
-        self._used = self.clock()
+        self.used()
         return self.run(commands.typed(self, command, timeout_s), Priority.USER, "user")
 
     def read(self, *expressions: str) -> Future[tuple[float, ...]]:

@@ -103,7 +103,9 @@ class Door:
         self.resting: Callable[[], str] = lambda: ""  # why live reads rest now
         self.erasing = False  # the confirmed action that erases the memory sets it for its one send
 
-    def refusal(self, data: bytes, *, stop: bool, answer: bool, poll: bool = False, stored: bool = False) -> str:
+    def refusal(
+        self, data: bytes, *, stop: bool, answer: bool, poll: bool = False, stored: bool = False, ends: bool = False
+    ) -> str:
         """Why these bytes may not leave, as one sentence, or nothing."""
         if stop:
             return ""
@@ -115,7 +117,7 @@ class Door:
             return self.resting()
         if MASTER_RESET in data and not self.erasing:
             return "Control-R control-S erases the controller's memory; it is sent only by its own confirmed action."
-        if not self.control and data != self._choose_unit and not only_reads(data):
+        if not self.control and not ends and data != self._choose_unit and not only_reads(data):
             return "Not sent: this is Watch. Take Control to move, set or download."
         trippoint = "" if stored else waits(data)
         if trippoint:

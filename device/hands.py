@@ -1,17 +1,16 @@
-"""What a person does with a controller besides asking: programs, moving by hand, outputs."""
+"""What a person does with a controller besides asking and moving: programs and outputs."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from device import commands
 from device.commands import Reply
 from device.download import Download, Downloaded, DownloadFailed, Job, recover, upload_steps
 from device.happenings import NoticeKind
-from device.hold import Lease
+from device.moving import refused
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped
 
 if TYPE_CHECKING:
@@ -36,7 +35,7 @@ class Memory:
     def downloading(self, download: Download) -> Steps[Downloaded]:
         """The steps of a download, as part of a longer task as well."""
         c = self._c
-        c.motion.release()
+        c.motion.let_go()
         if not c.control:
             raise NotAllowed("Not downloaded: this is Watch. Take Control first.")
         if c.resting() and not c.waiting.unfinished:
@@ -78,36 +77,6 @@ class Memory:
         return self._c.run(commands.typed(self._c, "BV", 5.0), Priority.USER, "user")
 
 
-class Motion:
-    """Moving by hand: a lease held by one axis at a time."""
-
-    def __init__(self, controller: Controller) -> None:
-        self._c = controller
-        self._lease: Lease | None = None
-
-    def hold(self, axis: str, speed_counts_s: float, acceleration: float, deceleration: float) -> Future[None]:
-        """Moves while `renew` is called at least every 150 ms."""
-        self.release()
-        c = self._c
-        c._used = c.clock()
-        if c.resting():
-            return refused(f"Not moved: {c.resting()}")
-        speed = math.trunc(speed_counts_s)
-        lease = Lease(axis, speed, math.trunc(acceleration), math.trunc(deceleration), c.clock, c.nonces)
-        lease.renew()
-        self._lease = lease
-        return c.run(lease.steps(), Priority.LEASE, "user")
-
-    def renew(self) -> None:
-        if self._lease is not None:
-            self._lease.renew()
-
-    def release(self) -> None:
-        if self._lease is not None:
-            self._lease.release()
-            self._lease = None
-
-
 class Io:
     """Outputs by hand."""
 
@@ -119,10 +88,3 @@ class Io:
         if not self._c.io_control:
             return refused("Not sent: switch I/O control on to set outputs by hand.")
         return self._c.ask(f"{'SB' if on else 'CB'} {number}")
-
-
-def refused(sentence: str) -> Future[Any]:
-    """A future that has already failed, with the sentence that says why."""
-    future: Future[Any] = Future()
-    future.set_exception(NotAllowed(sentence))
-    return future

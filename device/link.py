@@ -20,6 +20,7 @@ from device.wire import Answer, Kind, Wire
 T = TypeVar("T")
 AHEAD = 32  # bytes that may wait in the operating system
 PROMPT_QUIET_S = 0.06  # text without a line end that stands this long may be a question
+LAST_S = 0.3  # for the stop of what moves by hand, when the line is closed
 SILENCES = 3  # unanswered exchanges in a row that mean "does not answer"
 PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")  # travels with a command
 ANSWER = Answer(Kind.ACCEPTED)
@@ -71,6 +72,7 @@ class Link:
         self._silences = 0
         self._next_open = 0.0
         self._stop: Callable[[bool], Steps[bool]] | None = None
+        self.last_words: Callable[[], bytes] = lambda: b""  # what ends a motion by hand when the line is closed
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
 
@@ -126,10 +128,20 @@ class Link:
         if self.transport is not None:
             with contextlib.suppress(TransportLost):
                 self.transport.write((b"\\\r" if self._out else b"") + (LEAVE if self._holder is not None else b""))
+                self._say_last(self.last_words())
         self._fail_all(LinkLost("The connection was closed."), survivors=False)
         if self.transport is not None:
             self.transport.close()
             self.transport = None
+
+    def _say_last(self, words: bytes) -> None:
+        """Closing a port throws away what has not left: so a stop of what moves by hand is waited for."""
+        end = self._clock() + LAST_S
+        while words and self.transport is not None and self._clock() < end:
+            words = words[self.transport.write(words) :]
+            self.transport.read(0.005)
+        while words == b"" and self.transport is not None and self.transport.unsent() and self._clock() < end:
+            self.transport.read(0.005)
 
     def step(self) -> None:
         """Opens, reads, settles, sends: one round of at most a few milliseconds."""
@@ -301,6 +313,7 @@ class Link:
             answer=step.answers_prompt,
             poll=task.priority is Priority.POLL,
             stored=step.stored,
+            ends=step.stops,
         )
         if refusal:
             self._throw(task, NotAllowed(refusal))

@@ -50,6 +50,7 @@ class Poller:
     ) -> None:
         self.ring = Ring(())
         self.columns = 80
+        self.brief = 0  # fewer columns while somebody holds an axis: a release must not wait for a long read
         self.rate_hz = 0.0
         self._line, self._clock, self._nonces = line, clock, nonces
         self._suspended, self._read = suspended, read
@@ -100,7 +101,8 @@ class Poller:
         quick = tuple(key for key in wanted if live.split(key)[0].quick)
         others = [key for key in wanted if key not in quick and self._is_due(key, now)]
         others.sort(key=lambda key: self._asked.get(key, 0.0))
-        lines = requests((*quick, *others), self.columns)[: len(requests(quick, self.columns)) + 1]
+        columns = self.brief or self.columns
+        lines = requests((*quick, *others), columns)[: len(requests(quick, columns)) + 1]
         self._asked.update({key: now for line in lines for key, _, _ in line})
         if now >= self._always_due:
             self._always_due = now + SLOW_S

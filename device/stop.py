@@ -22,7 +22,7 @@ from enum import StrEnum
 
 from device.door import LEAVE
 from device.tasks import Send, Steps, Wait
-from device.wire import Answer, Frame, Kind, Proof, Shape, framed
+from device.wire import Answer, Frame, Kind, Proof, Shape, fitting, framed
 
 NO_ANSWER_S = 0.5  # this long without an answer is NOT CONFIRMED
 GRACE_S = 0.3  # beyond the stopping time before AB
@@ -141,13 +141,7 @@ class Stopping:
         """`_BG` of all axes and S, then `_XQn`, in as few lines as fit."""
         reads = [(f"_BG{axis}", Shape(1, 0)) for axis in self.axes + ("S" if self.sequence else "")]
         reads += [(f"_XQ{thread}", Shape(4, 0)) for thread in range(self.threads)]
-        line: list[tuple[str, Shape]] = []
-        for read in reads:
-            if line and len(framed("xx", [*line, read])) > self.columns:
-                yield line
-                line = []
-            line.append(read)
-        yield line
+        return fitting(reads, self.columns)
 
     def _patience(self) -> float:
         """How long to wait for an answer: never past the moment that is NOT CONFIRMED, longer after it."""

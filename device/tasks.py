@@ -56,6 +56,7 @@ class Send:
     `watch_for`: any of these bytes, coming while the task holds the line, ends the step as refused.
     `refusal_s`: a `?` followed by so much silence ends the wait early, as uncertain.
     `stored`: a line of a program, which is kept and not carried out.
+    `stops`: it only ends a motion begun by hand, so it leaves in Watch as well.
     """
 
     data: bytes
@@ -67,6 +68,7 @@ class Send:
     answers_prompt: bool = False
     refusal_s: float = 0.0
     stored: bool = False
+    stops: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -126,6 +126,18 @@ def framed(nonce: str, reads: Sequence[tuple[str, Shape]]) -> str:
 FRAME_COLUMNS = len(framed("xx", ()))
 
 
+def fitting(reads: Sequence[tuple[str, Shape]], columns: int) -> Iterator[list[tuple[str, Shape]]]:
+    """The reads in as few lines as fit into so many columns."""
+    line: list[tuple[str, Shape]] = []
+    for read in reads:
+        if line and len(framed("xx", [*line, read])) > columns:
+            yield line
+            line = []
+        line.append(read)
+    if line:
+        yield line
+
+
 class Wire:
     """Takes bytes as they come and gives answers and texts."""
 

@@ -1,0 +1,357 @@
+"""Moving by hand, as a jog panel uses it: holding, latched jogs, planned moves, zero and home; one hand at a time.
+
+A jog panel needs no more than this (`motion` is `controller.motion`; nothing here waits, answers come in futures):
+
+* Say once which machine it is: `motion.setup = document.setup`. Its top speeds and limits hold here too.
+* Hold-to-run: `motion.hold("X", speed, ac, dc, owner="mouse")` on press, `motion.renew("mouse")` every 50 ms while it
+  is held, `motion.release("mouse")` on release, focus loss, hiding, closing. Whoever forgets to renew for 150 ms has
+  let go, and has to press again. Another owner is refused as long as the first one holds. The future ends when the
+  axis stands, with a `Ran`: `run_on` (counts) and `seconds` from letting go until it stood, to be shown.
+* Latched jog: `motion.set_latch(True)` (off at start, and off again after STOP, Watch, a lost line), then
+  `motion.run("X", speed, ac, dc, owner="panel")`; ends with `motion.release("panel")`.
+* Everything else is a plan of `device.jog` (`by`, `to`, `line`, `arc`, `home`, `zero`): show `plan.ghost(places)` as
+  the marker and `plan.passes(places)` before the start, then `motion.go(plan, owner=…, homed=letters)`. `places` come
+  from `motion.look(axes)`, or from the live row (`commanded.x`) with `Places(…).narrowed(setup)`. `go` looks afresh:
+  a move that passes a limit, or goes to a place of an axis that is not homed, fails with a `NeedsConfirmation` whose
+  text is the question; after a yes `go(plan, confirmed=True)`. `release(owner)` stops it. The future ends with an
+  `Ended`.
+* `motion.ghost` is where the held axis stops when it is let go now; `motion.busy` what moves by hand, in words.
+
+All of it is refused in Watch, while a question of a program waits or may come, and for axes that a running program
+drives. STOP ends everything here; nothing starts again by itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from codegen.fields import Dimension
+from device.jog import Places, Plan, axes_driven
+from device.lease import CODE, COUNTS, EXCHANGE, FLAG, LINE_S, LOOK_S, Exchange, Lease, Ran, StopNeeded, ended
+from device.tasks import LinkError, NotAllowed, Priority, Steps, Wait
+from device.wire import Kind, Shape
+
+if TYPE_CHECKING:
+    from codegen.setup import Setup
+    from device.api import Controller
+
+T = TypeVar("T")
+FEWEST_COLUMNS = 31  # of a poll while somebody holds: one value
+SHARE_S = 0.03  # of the line, one way, that a poll may take then
+ONE_HAND = "is moved by hand already ({}); let go there first."
+
+
+class NeedsConfirmation(NotAllowed):
+    """The person has to say yes first; the text is what to ask."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """How a planned move ended."""
+
+    places: dict[str, int]  # commanded positions, counts
+    codes: dict[str, int]  # stop codes
+    sentence: str
+
+
+@dataclass
+class Going:
+    """A planned move on its way."""
+
+    plan: Plan
+    owner: str
+    exchange: Exchange
+    released: bool = False
+    begun: bool = False
+    former: list[tuple[str, str, int]] = field(default_factory=list)  # command, axis (none: of the path), value
+
+    @property
+    def held(self) -> bool:
+        return not self.released
+
+    def release(self) -> None:
+        self.released = True
+
+    def steps(self) -> Steps[Ended]:
+        """Sends, waits for the end (a release stops it), puts speeds and ramps back."""
+        yield from self._remember()
+        *first, last = self.exchange.packed(self.plan.commands)
+        for line in first:
+            if self.released:
+                return Ended({}, {}, "Nothing was moved.")
+            yield from self._accepted(line)
+        if not self.released:
+            self.begun = True
+            yield from self._accepted(last)
+        told = False
+        while not self.plan.defines:
+            if self.released and not told:
+                told = yield from self._stop()
+            values = yield from self.exchange.read(*self._moving())
+            if values is not None and not any(values):
+                break
+            yield Wait(LOOK_S)
+        return (yield from self._result())
+
+    def _remember(self) -> Steps[None]:
+        names = [(name, "") for name in ("VS", "VA", "VD")] if self.plan.sequence else []
+        if not self.plan.sequence and not self.plan.defines:
+            names = [(name, axis) for axis in self.plan.axes for name in ("SP", "AC", "DC")]
+        values = yield from self.exchange.read(*((f"_{name}{axis}", Shape(8, 0)) for name, axis in names))
+        if values is not None:
+            self.former = [(name, axis, int(value)) for (name, axis), value in zip(names, values, strict=True)]
+
+    def _moving(self) -> list[tuple[str, Shape]]:
+        return [(f"_BG{letter}", FLAG) for letter in self.plan.axes + ("S" if self.plan.sequence else "")]
+
+    def _accepted(self, line: str) -> Steps[None]:
+        answer = yield from self.exchange.prove(line)
+        if answer.kind is not Kind.ACCEPTED:
+            why = yield from self.exchange.why()
+            yield from self._put_back()
+            raise LinkError(f"{self.plan.title}: not started, “{line}” was refused: {why}.")
+
+    def _stop(self) -> Steps[bool]:
+        target = "S" if self.plan.sequence else self.plan.axes
+        answer = yield from self.exchange.prove(f"ST {target}", stops=True)
+        return answer.kind is Kind.ACCEPTED
+
+    def _result(self) -> Steps[Ended]:
+        reads = [(f"_RP{letter}", COUNTS) for letter in self.plan.axes]
+        reads += [(f"_SC{letter}", CODE) for letter in self.plan.axes]
+        values = yield from self.exchange.read(*reads)
+        yield from self._put_back()
+        if values is None:
+            raise LinkError(f"{self.plan.title}: ended, but the controller did not say where.")
+        count = len(self.plan.axes)
+        places = {letter: int(value) for letter, value in zip(self.plan.axes, values[:count], strict=True)}
+        codes = {letter: int(value) for letter, value in zip(self.plan.axes, values[count:], strict=True)}
+        done = " ".join(ended(letter, code) for letter, code in codes.items())
+        return Ended(places, codes, f"{self.plan.title}." if self.plan.defines else done)
+
+    def _put_back(self) -> Steps[None]:
+        commands = [f"{name} {',' * 'XYZW'.index(axis) if axis else ''}{value}" for name, axis, value in self.former]
+        yield from self.exchange.put_back(commands)
+
+
+class Motion:
+    """Moving by hand; the module's text says how a panel uses it."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._c = controller
+        self._now: Lease | Going | None = None
+        self._ended: Future[Any] | None = None
+        self.setup: Setup | None = None
+        self.latch = False
+
+    # ---------------------------------------------------------------- holding
+
+    def hold(
+        self, axis: str, speed_counts_s: float, acceleration: float, deceleration: float, owner: str = ""
+    ) -> Future[Ran]:
+        """Moves while `renew` is called at least every 150 ms; speed with the sign of the direction, as SP takes it."""
+        c = self._c
+        if EXCHANGE * c.line.byte_s > LINE_S:
+            return refused(f"Not moved: holding needs a faster line than {c.line.baud} baud; move by increments.")
+        return self._lease(axis, speed_counts_s, acceleration, deceleration, owner, latched=False)
+
+    def renew(self, owner: str = "") -> None:
+        """Goes on holding; to be called every 50 ms."""
+        if isinstance(self._now, Lease) and self._now.owner == owner:
+            self._c.used()
+            self._now.renew()
+
+    def release(self, owner: str | None = None) -> None:
+        """Lets go, or stops the planned move; without an owner whoever it is."""
+        if self._now is not None and owner in (None, self._now.owner):
+            self._now.release()
+
+    # ----------------------------------------------------------- latched jogs
+
+    def set_latch(self, on: bool) -> None:
+        """Whether jogs may go on by themselves; ends the one that runs when it is switched off."""
+        self.latch = on and self._c.control
+        if not on and isinstance(self._now, Lease) and self._now.latched:
+            self._now.release()
+
+    def run(
+        self, axis: str, speed_counts_s: float, acceleration: float, deceleration: float, owner: str = ""
+    ) -> Future[Ran]:
+        """A jog that goes on until `release`, STOP or a limit; needs the latch."""
+        if not self.latch:
+            return refused("Not moved: switch the latch on to let a jog go on by itself.")
+        return self._lease(axis, speed_counts_s, acceleration, deceleration, owner, latched=True)
+
+    def let_go(self) -> None:
+        """STOP, Watch, another controller: nothing is held and nothing latched any more."""
+        self.latch = False
+        self.release()
+
+    def last_words(self) -> bytes:
+        """What ends it when the line is closed: a stop of what moves by hand."""
+        now = self._now
+        if now is None or not self._busy() or self._c.door.question:
+            return b""
+        axes = now.axis if isinstance(now, Lease) else "S" if now.plan.sequence else now.plan.axes
+        return f"ST {axes}\r".encode()
+
+    # ---------------------------------------------------------- planned moves
+
+    def look(self, axes: Iterable[str]) -> Future[Places]:
+        """Where axes are commanded to be, and the nearer of the limits of controller and setup."""
+        return self._c.run(self._look("".join(axes)), Priority.USER, "poll")
+
+    def go(self, plan: Plan, *, owner: str = "", homed: Iterable[str] = (), confirmed: bool = False) -> Future[Ended]:
+        """Starts a plan; fails with NeedsConfirmation where a person has to say yes first."""
+        problem = plan.problem or self._objection(plan.axes, owner)
+        if problem:
+            return refused(f"Not moved: {problem}")
+        going = Going(plan, owner, self._exchange())
+        return self._begin(going, self._checked(going, frozenset(homed), confirmed), Priority.USER)
+
+    # ------------------------------------------------------------ for display
+
+    @property
+    def ghost(self) -> dict[str, int]:
+        """Where the held axis stops when it is let go now, counts; empty when nothing is held."""
+        now = self._now
+        return {now.axis: now.ghost} if isinstance(now, Lease) and self._busy() else {}
+
+    @property
+    def busy(self) -> str:
+        """What moves by hand now, in words, or nothing."""
+        if not self._busy():
+            return ""
+        return f"axis {self._now.axis}" if isinstance(self._now, Lease) else self._now.plan.title if self._now else ""
+
+    # ----------------------------------------------------------------- inside
+
+    def _busy(self) -> bool:
+        return self._ended is not None and not self._ended.done()
+
+    def _lease(
+        self, axis: str, speed: float, acceleration: float, deceleration: float, owner: str, *, latched: bool
+    ) -> Future[Ran]:
+        problem = self._objection(axis, owner) or self._unfit(axis, speed, acceleration, deceleration)
+        if problem:
+            return refused(f"Not moved: {problem}")
+        c = self._c
+        lease = Lease(
+            axis, math.trunc(speed), math.trunc(acceleration), math.trunc(deceleration), self._exchange(),
+            latched=latched, resting=partial(self._endangered, axis), owner=owner, renewed=c.clock(),
+        )  # fmt: skip
+        return self._begin(lease, lease.steps(), Priority.LEASE)
+
+    def _begin(self, now: Lease | Going, steps: Steps[T], priority: Priority) -> Future[T]:
+        """One after the other: the one before is let go and stands first."""
+        before = self._ended if self._busy() else None
+        self.release()
+        self._now = now
+        self._c.used()
+        future = self._c.run(self._in_turn(now, before, steps), priority, "user")
+        self._ended = future
+        return future
+
+    def _in_turn(self, now: Lease | Going, before: Future[Any] | None, steps: Steps[T]) -> Steps[T]:
+        while before is not None and not before.done():
+            yield Wait(0.01)
+        if not now.held:
+            steps.close()
+            raise NotAllowed("Not moved: it was let go before it began.")
+        poller = self._c.poller
+        poller.brief = self._brief() if isinstance(now, Lease) else 0
+        try:
+            return (yield from steps)
+        except StopNeeded:
+            self._c.stop()
+            raise
+        finally:
+            poller.brief = 0
+
+    def _brief(self) -> int:
+        """Columns of a poll while somebody holds: its end must not keep a release waiting."""
+        byte_s = self._c.line.byte_s
+        return max(FEWEST_COLUMNS, int(SHARE_S / byte_s)) if byte_s else 0
+
+    def _exchange(self) -> Exchange:
+        c = self._c
+        return Exchange(c.clock, c.nonces, c.model.columns if c.model is not None else 40, c.line.byte_s)
+
+    def _objection(self, axes: str, owner: str) -> str:
+        """Why nothing may be moved by hand now."""
+        c = self._c
+        if not c.control:
+            return "this is Watch. Take Control first."
+        if self._busy() and self._now is not None and self._now.held and self._now.owner != owner:
+            return f"{self.busy} {ONE_HAND.format(self._now.owner or 'elsewhere')}"
+        missing = [letter for letter in axes if letter not in c.axes]
+        if missing:
+            return f"this controller has no axis {missing[0]}."
+        return next((text for axis in axes if (text := self._endangered(axis))), "")
+
+    def _endangered(self, axis: str) -> str:
+        """Why this axis is not ours now: a question waits or may come, or a running program drives it."""
+        c = self._c
+        if c.resting():
+            return c.resting()
+        if not c.waiting.position:
+            return ""
+        listing = c.waiting.listing
+        if listing is None:
+            return "a program runs whose text is not known. Halt it first."
+        if axis in axes_driven(listing.text, c.axes):
+            return f"the running program drives axis {axis}. Halt it first."
+        return ""
+
+    def _unfit(self, axis: str, speed: float, acceleration: float, deceleration: float) -> str:
+        numbers = (speed, acceleration, deceleration)
+        if not all(math.isfinite(number) for number in numbers) or math.trunc(speed) == 0:
+            return "the speed is no number above 0."
+        if acceleration < 1024 or deceleration < 1024:
+            return "acceleration and deceleration must be at least 1024 counts/s²."
+        c = self._c
+        top = float(c.model.servo_max_counts_s) if c.model is not None else math.inf
+        if self.setup is not None:
+            factor = self.setup.factor(Dimension.SPEED, axis)
+            top = min(top, float(self.setup.bounds(Dimension.SPEED, axis)[1] * factor))
+        return f"{abs(speed):g} counts/s is above the top speed of axis {axis}, {top:g}." if abs(speed) > top else ""
+
+    def _look(self, axes: str) -> Steps[Places]:
+        exchange = self._exchange()
+        names = ("RP", "FL", "BL")
+        values = yield from exchange.read(*((f"_{name}{axis}", COUNTS) for name in names for axis in axes))
+        if values is None:
+            raise LinkError("Not moved: the controller did not say where the axes are.")
+        count = len(axes)
+        parts = [dict(zip(axes, map(int, values[n * count : (n + 1) * count]), strict=True)) for n in range(3)]
+        return Places(*parts).narrowed(self.setup)
+
+    def _checked(self, going: Going, homed: frozenset[str], confirmed: bool) -> Steps[Ended]:
+        """Looks afresh, then goes."""
+        plan = going.plan
+        moving = yield from going.exchange.read(*((f"_BG{letter}", FLAG) for letter in plan.axes))
+        if moving is None or any(moving):
+            raise NotAllowed("Not moved: an axis of it moves already; stop it first.")
+        places = yield from self._look(plan.axes)
+        if not confirmed:
+            unknown = [letter for letter in plan.axes if plan.absolute and letter not in homed]
+            if unknown:
+                raise NeedsConfirmation(
+                    f"Axis {unknown[0]} was not seen homed: {plan.ghost(places)[unknown[0]]} counts may be anywhere. "
+                    "Move there all the same?"
+                )
+            if passes := plan.passes(places):
+                raise NeedsConfirmation(f"{passes} Move all the same?")
+        return (yield from going.steps())
+
+
+def refused(sentence: str) -> Future[Any]:
+    """A future that has already failed, with the sentence that says why."""
+    future: Future[Any] = Future()
+    future.set_exception(NotAllowed(sentence))
+    return future
