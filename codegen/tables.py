@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
-from codegen.numbers import number_problem, parse_number
+from codegen.numbers import looks_like_number, number_problem, parse_number
 
 LONGEST = 20000  # rows; more than any controller holds
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(,\d{3})+\Z", re.ASCII)
@@ -52,23 +52,56 @@ class _Wrong(Exception):
 @lru_cache(maxsize=256)
 def read_table(text: str) -> Grid | BadTable:
     """The numbers in a table, or what is wrong with it; rows that are empty at the end do not count."""
-    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    return _read(text, 0)
+
+
+def read_pasted(text: str) -> Grid | BadTable:
+    """As `read_table`, but a first line of words is taken as headings, and `0,5` alone is refused: one cell or two?"""
+    lines = _lines(text)
+    mark = separator(lines)
+    first = [cell.strip() for cell in lines[0].split(mark)] if len(lines) > 1 else []
+    headings = 1 if any(first) and all(map(_is_heading, filter(None, first))) else 0
+    commas = [line.strip() for line in lines[headings:] if "," in line] if mark == "," else []
+    if commas and all(map(_DECIMAL_COMMA.match, commas)):
+        row = next(number for number, line in enumerate(lines) if line.strip() == commas[0])
+        point = commas[0].replace(",", ".")
+        return BadTable(
+            f"row {row + 1}: '{commas[0]}' can be one number or two; write {point}, or part the cells with tabs or ;",
+            row,
+        )
+    return _read(text, headings)
+
+
+def _is_heading(cell: str) -> bool:
+    return any(letter.isalpha() for letter in cell) and not looks_like_number(cell)
+
+
+def _lines(text: str) -> list[str]:
+    lines = text.removeprefix("\N{BYTE ORDER MARK}").replace("\r\n", "\n").replace("\r", "\n").split("\n")
     while lines and not lines[-1].strip():
         lines.pop()
-    if len(lines) > LONGEST:
+    return lines
+
+
+def _read(text: str, headings: int) -> Grid | BadTable:
+    """The numbers below the headings; rows are told as they stand in the text."""
+    lines = _lines(text)
+    if len(lines) - headings > LONGEST:
         return BadTable(f"the table has {len(lines)} rows; at most {LONGEST} are read")
     mark = separator(lines)
-    rows = [line.split(mark) for line in lines]
+    rows = [line.split(mark) for line in lines[headings:]]
     try:
         cells = tuple(
-            tuple(_cell(cell, number, place, mark) for place, cell in enumerate(row)) for number, row in enumerate(rows)
+            tuple(_cell(cell, number, place, mark) for place, cell in enumerate(row))
+            for number, row in enumerate(rows, headings)
         )
     except _Wrong as wrong:
         return wrong.problem
     uneven = next((number for number, row in enumerate(cells) if len(row) != len(cells[0])), None)
     if uneven is not None:
+        row, first = uneven + headings, headings + 1
         return BadTable(
-            f"row {uneven + 1} has {len(cells[uneven])} cells, row 1 has {len(cells[0])}", uneven, len(cells[uneven])
+            f"row {row + 1} has {len(cells[uneven])} cells, row {first} has {len(cells[0])}", row, len(cells[uneven])
         )
     return Grid(cells)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from codegen.instructions.configuration import AccelDecel, AutoExecution, VariableArray
-from codegen.instructions.curves import ContourMode, ElectronicCam
+from codegen.instructions.contour import ContourMode
+from codegen.instructions.curves import ElectronicCam
 from codegen.instructions.flow import End, Jump, Label, Repeat, Subroutine, Wait
 from codegen.instructions.following import AbortMotion, DisableGearing, ElectronicGearing, IncrementalPosition
 from codegen.instructions.instruction import Group, Instruction

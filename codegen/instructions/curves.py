@@ -1,4 +1,4 @@
-"""The group Motion: curves given as tables, by time or by the position of a master."""
+"""The group Motion: curves given as tables by the position of a master."""
 
 # ruff: noqa: RUF009  (value() declares a field as dataclasses.field does)
 
@@ -9,6 +9,7 @@ from enum import StrEnum
 from fractions import Fraction
 from itertools import pairwise
 
+from codegen.courses import Course, along_master, too_much
 from codegen.fields import (
     AXES,
     NONE,
@@ -27,135 +28,14 @@ from codegen.fields import (
     value_of,
 )
 from codegen.instructions.instruction import Group, Instruction
-from codegen.numbers import plain
+from codegen.numbers import parse_number, shown
 from codegen.setup import Setup
+from codegen.sheets import Sheet, columns_of
 from codegen.tables import Grid, read_table
-from codegen.twoletter.commands import COMMANDS
 
 LONGEST_CYCLE = 8_388_607  # counts of the master (EM)
 WIDEST_INTERVAL = 32767  # counts of the master between two points (EP)
-INTERVALS = {2**n: n for n in range(1, 9)}  # ms: DT
-
-
-class Every(StrEnum):
-    MS2 = "2"
-    MS4 = "4"
-    MS8 = "8"
-    MS16 = "16"
-    MS32 = "32"
-    MS64 = "64"
-    MS128 = "128"
-    MS256 = "256"
-
-
-def headings(letters: str, setup: Setup) -> tuple[str, ...]:
-    """`Y in`: what stands above the columns of axes."""
-    return tuple(f"{letter} {setup.axis(letter).symbol}" for letter in letters)
-
-
-@dc.dataclass(frozen=True, kw_only=True)
-class ContourMode(Instruction):
-    """Any curve of positions, as a table of small steps."""
-
-    title = "Contour Mode"
-    group = Group.MOTION
-    sentence = "Contour of {axes}: {table}[ of {interval}| {timed}][, then {wait}]"
-    help = (
-        "Each row of the table says how far the axes go in one interval; between the rows the speed stays even. One "
-        "column for each axis, in user units; the first column can be the interval of the row in ms (2, 4, 8 … 256; "
-        "empty: as the row before). Rows are added up before they are rounded, so that the end is where the table says."
-    )
-
-    axes: str = value(AxisSet(label="Axes", help="The axes that follow the table."), "X")
-    timed: bool = value(
-        Flag(
-            label="First column is the interval",
-            phrase="with intervals of their own",
-            help="The first column of the table says how long each row takes, in ms.",
-        ),
-        False,
-    )
-    interval: Every = value(
-        Choice(
-            label="Interval",
-            kind=Every,
-            words={each: f"{each.value} ms" for each in Every},
-            when={"timed": False},
-            help="How long every row takes; a power of two of samples.",
-        ),
-        Every.MS16,
-    )
-    table: str = value(
-        Table(label="Table", help="How far each axis goes in each interval; paste it from a spreadsheet."), ""
-    )
-    wait: bool = value(
-        Flag(
-            label="Wait until finished",
-            phrase="wait until the profile has ended",
-            help="Hold the program until the curve has ended.",
-        ),
-        True,
-    )
-
-    @property
-    def column_axes(self) -> tuple[str, ...]:
-        """Whose values stand in the columns; "" for the interval."""
-        return (*(("",) if self.timed else ()), *self.axes)
-
-    def columns(self, setup: Setup) -> tuple[str, ...]:
-        """What stands above the columns of the table."""
-        return (*(("ms",) if self.timed else ()), *headings(self.axes, setup))
-
-    def records(self) -> tuple[tuple[int, tuple[Fraction, ...]], ...]:
-        """The exponent of the interval and the step of each axis, row by row (of a correct table)."""
-        grid = read_table(self.table)
-        if not isinstance(grid, Grid):
-            return ()
-        exponent = INTERVALS[int(self.interval)]
-        found = []
-        for row in grid.rows:
-            if self.timed and row[0] is not None:
-                exponent = INTERVALS.get(int(row[0]), exponent)
-            found.append((exponent, tuple(each or Fraction(0) for each in row[self.timed :])))
-        return tuple(found)
-
-    def own_problem(self) -> tuple[str, str] | None:
-        grid = read_table(self.table)
-        if not isinstance(grid, Grid):
-            return None
-        wanted = len(self.axes) + self.timed
-        if grid.columns != wanted:
-            first = ", the first for the interval" if self.timed else ""
-            return "table", f"Table: it has {grid.columns} columns and needs {wanted}{first}"
-        if self.timed and grid.rows[0][0] is None:
-            return "table", "Table: row 1 has no interval"
-        for number, every in enumerate(grid.column(0) if self.timed else ()):
-            if every is not None and every not in INTERVALS:
-                return "table", f"Table: row {number + 1} has the interval {plain(every)} ms; it must be 2, 4, 8 … 256"
-        return None
-
-    def setup_problem(self, setup: Setup) -> tuple[str, str] | None:
-        furthest = int(COMMANDS["CD"].high or 0)
-        for number, (_, steps) in enumerate(self.records()):
-            for letter, step in zip(self.axes, steps, strict=True):
-                if abs(step) * setup.axis(letter).scale > furthest - 1:  # rounding may add one
-                    return "table", f"Table: row {number + 1} moves {letter} by more than {furthest} counts"
-        return None
-
-    def own_warning(self, setup: Setup) -> tuple[str, str] | None:
-        """A speed the axis has never been allowed."""
-        for number, (exponent, steps) in enumerate(self.records()):
-            for letter, step in zip(self.axes, steps, strict=True):
-                fastest = setup.bounds(Dimension.SPEED, letter)[1]
-                speed = abs(step) * 1_024_000 / (2**exponent * setup.sample)
-                if speed > fastest:
-                    unit = setup.unit_text(Dimension.SPEED, letter)
-                    return "table", f"Row {number + 1} is faster than {letter} may go: {float(speed):.6g} {unit}"
-        return None
-
-    @classmethod
-    def example(cls) -> ContourMode:
-        return cls(interval=Every.MS4, table="0.012\n0.036\n0.06\n0.036\n0.012")
+MOST_POINTS = 257
 
 
 class CamStep(StrEnum):
@@ -258,6 +138,19 @@ class ElectronicCam(Instruction):
         ),
         "",
     )
+    fastest: str = value(
+        Quantity(
+            label="Top master speed",
+            dimension=Dimension.SPEED,
+            axis="master",
+            positive=True,
+            literal=True,
+            required=False,
+            when=_DEFINE,
+            help="How fast the master ever goes, to check the slaves with; empty: its top speed in the setup.",
+        ),
+        "",
+    )
     change: PerAxisText = value(
         PerAxis(
             label="Change in a cycle",
@@ -272,7 +165,7 @@ class ElectronicCam(Instruction):
         Table(
             label="Table",
             fewest_rows=2,
-            most_rows=257,
+            most_rows=MOST_POINTS,
             when=_DEFINE,
             help="Positions of the slaves, one column each, at evenly spaced positions of the master: 2 to 257 rows.",
         ),
@@ -305,9 +198,36 @@ class ElectronicCam(Instruction):
         """Whose values stand in the columns."""
         return tuple(self.slaves)
 
-    def columns(self, setup: Setup) -> tuple[str, ...]:
-        """What stands above the columns of the table."""
-        return headings(self.slaves, setup)
+    def sheet(self, setup: Setup) -> Sheet:
+        """How the table is shown: before each row the place of the master."""
+        grid, cycle = read_table(self.table), value_of(self.cycle) if self.cycle else None
+        leads: tuple[str, ...] = ()
+        if isinstance(grid, Grid) and isinstance(cycle, Fraction) and len(grid.rows) > 1:
+            first, apart = self._first(), cycle / (len(grid.rows) - 1)
+            leads = tuple(shown(first + apart * number) for number in range(len(grid.rows)))
+        lead = f"{self.master} {setup.axis(self.master).symbol}"
+        return Sheet(columns_of(self.slaves, setup), lead, leads, MOST_POINTS)
+
+    def _first(self) -> Fraction:
+        first = value_of(self.offset) if self.offset.strip() else Fraction(0)
+        return first if isinstance(first, Fraction) else Fraction(0)
+
+    def master_speed(self, setup: Setup) -> Fraction | None:
+        """How fast the master goes at most, in its unit: as said here, else as its top speed in the setup says."""
+        given = value_of(self.fastest) if self.fastest.strip() else parse_number(setup.axis(self.master).maximum_speed)
+        return given if isinstance(given, Fraction) and given > 0 else None
+
+    def courses(self, setup: Setup) -> tuple[Course, ...]:
+        """How each slave goes along a correct table while the master goes at its top speed (or 1 unit/s)."""
+        grid, cycle = read_table(self.table), value_of(self.cycle) if self.cycle else None
+        whole = isinstance(grid, Grid) and grid.columns == len(self.slaves) and len(grid.rows) > 1
+        if not isinstance(grid, Grid) or not whole or not isinstance(cycle, Fraction) or cycle <= 0:
+            return ()
+        speed = self.master_speed(setup) or Fraction(1)
+        return tuple(
+            along_master(letter, [cell or Fraction(0) for cell in grid.column(place)], self._first(), cycle, speed)
+            for place, letter in enumerate(self.slaves)
+        )
 
     def own_problem(self) -> tuple[str, str] | None:
         if self.step is CamStep.DEFINE:
@@ -372,22 +292,30 @@ class ElectronicCam(Instruction):
                 "cycle",
                 f"Master cycle: its {counts} counts do not divide into {apart} equal parts; the curve ends early",
             )
-        return self._seam(setup, grid)
+        return self._seam(setup, grid) or self._too_fast(setup)
+
+    def _too_fast(self, setup: Setup) -> tuple[str, str] | None:
+        """A slave that would have to go faster, or speed up harder, than it may."""
+        speed = self.master_speed(setup)
+        if speed is None:
+            return None
+        because = f" with {self.master} at {shown(speed)} {setup.unit_text(Dimension.SPEED, self.master)}"
+        told = next(filter(None, (too_much(each, setup, because) for each in self.courses(setup))), None)
+        return ("table", told) if told else None
 
     def _seam(self, setup: Setup, grid: Grid) -> tuple[str, str] | None:
-        """Where the slave jumps when the cycle begins again."""
+        """Where the slave jumps, or changes its speed at once, when the cycle begins again."""
         for place, letter in enumerate(self.slaves):
-            cells = [cell or Fraction(0) for cell in grid.column(place)]
-            given = value_of(self.change[AXES.index(letter)]) if self.change[AXES.index(letter)] else None
+            cells, symbol = [cell or Fraction(0) for cell in grid.column(place)], setup.axis(letter).symbol
+            text = self.change[AXES.index(letter)]
+            given = value_of(text) if text else None
             off = abs(cells[-1] - cells[0]) - abs(given) if isinstance(given, Fraction) else Fraction(0)
-            if off * setup.axis(letter).scale >= 1 or off * setup.axis(letter).scale <= -1:
-                return (
-                    "table",
-                    f"{letter} jumps by {float(abs(off)):.6g} {setup.axis(letter).symbol} where the cycle begins again",
-                )
+            if abs(off) * setup.axis(letter).scale >= 1:
+                return "table", f"{letter} jumps by {float(abs(off)):.6g} {symbol} where the cycle begins again"
             steps = [after - before for before, after in pairwise(cells)]
             bends = [abs(after - before) for before, after in pairwise(steps)]
-            if bends and abs(steps[0] - steps[-1]) > 2 * max(bends):
+            jump = abs(steps[0] - steps[-1])
+            if bends and jump > 2 * max(bends) and jump * setup.axis(letter).scale > 1:
                 return "table", f"{letter} changes its speed at once where the cycle begins again"
         return None
 

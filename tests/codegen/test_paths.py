@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from codegen.document import Document
 from codegen.generate import code, generate
 from codegen.instructions import CircularPath, ContourMode, ElectronicCam, LinearPath, TangentPath
-from codegen.instructions.curves import CamPlace, CamStep, Every
+from codegen.instructions.contour import Every
+from codegen.instructions.curves import CamPlace, CamStep
 from codegen.instructions.path_parts import Ending, Measured, Piece, Shape, Stretch, Turn
 from codegen.models import model
 from codegen.paths import legs, path_of
@@ -243,7 +244,7 @@ def test_wrong_contours(contour: ContourMode, message: str) -> None:
 def test_a_contour_that_is_too_fast_is_told() -> None:
     slow = SAME.with_axis("X", Axis(counts_per_unit="4000", maximum_speed="1"))
     contour = ContourMode(interval=Every.MS2, table="0.001\n0.01")  # 0.01 in in 2 samples: 5.12 in/s
-    assert warnings(contour, slow) == ["Row 2 is faster than X may go: 5.12 in/s"]
+    assert warnings(contour, slow) == ["In row 2 X goes at 5.12 in/s, top is 1 in/s"]
 
 
 @pytest.mark.parametrize(

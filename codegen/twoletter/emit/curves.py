@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from codegen.fields import AXES, Dimension, value_of
-from codegen.instructions.curves import CamStep, ContourMode, ElectronicCam
+from codegen.instructions.contour import ContourMode
+from codegen.instructions.curves import CamStep, ElectronicCam
 from codegen.tables import Grid, read_table
 from codegen.twoletter.calls import Statement, Value, by_axis, entry, for_axes, numbers, simple
 from codegen.twoletter.emit.build import Build

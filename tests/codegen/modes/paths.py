@@ -14,7 +14,8 @@ from codegen.instructions import (
     SingleAxisMove,
     TangentPath,
 )
-from codegen.instructions.curves import CamPlace, CamStep, Every
+from codegen.instructions.contour import Every
+from codegen.instructions.curves import CamPlace, CamStep
 from codegen.instructions.motion import MoveMode
 from codegen.instructions.path_parts import Ending, Measured, Piece, Shape, Stretch, Turn
 from codegen.setup import Setup
