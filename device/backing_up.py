@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING
 
 from codegen.models import Model
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.backup import (
     Backup,
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 LINE_S = 1.5
+REFUSAL_S = 0.05  # silence behind a `?` that makes it a refusal
 WIDTH = len("$00000000.0000")
 
 
@@ -63,17 +66,24 @@ def quiet(c: Controller, what: str) -> Steps[Model]:
     return model
 
 
-def exact(nonces: Iterator[str], expressions: Sequence[str], columns: int) -> Steps[list[Value | None]]:
-    """Reads expressions to the last bit, as many a line as fit; None where the controller knows none of that name."""
+def exact(
+    nonces: Iterator[str], expressions: Sequence[str], columns: int, enough: Callable[[], bool] = lambda: False
+) -> Steps[list[Value | None]]:
+    """Reads expressions to the last bit, as many a line as fit; None where the controller knows none of that name.
+
+    The list ends early once it is `enough`.
+    """
     found: list[Value | None] = []
     for group in _lines([f"{each}{{$8.4}}" for each in expressions], columns - FRAME_COLUMNS - 4, ","):
-        answer = yield from proved(nonces, f"MG {','.join(group)}", LINE_S)
+        if enough():
+            break
+        answer = yield from proved(nonces, f"MG {','.join(group)}", LINE_S, REFUSAL_S)
         if answer.kind is Kind.SILENT:
             raise LinkLost("The controller stopped answering.")
         if answer.kind is not Kind.ACCEPTED:
             yield from fence(nonces)
             single = len(group) == 1
-            found += [None] if single else (yield from exact(nonces, [each[:-6] for each in group], 0))
+            found += [None] if single else (yield from exact(nonces, [each[:-6] for each in group], 0, enough))
             continue
         texts = answer.text.split("$")[1:]
         if len(texts) != len(group) or not answer.certain:
@@ -97,22 +107,34 @@ def _lines(parts: Sequence[str], room: int, joint: str) -> Iterator[list[str]]:
 
 
 def backup_steps(
-    c: Controller, job: Job[Backup], note: str = "", port: str = "", *, setup: str = "", taken: datetime | None = None
+    c: Controller,
+    job: Job[Backup],
+    note: str = "",
+    port: str = "",
+    *,
+    setup: str = "",
+    reason: str = "",
+    budget_s: float = math.inf,
+    running: bool = False,
+    taken: datetime | None = None,
 ) -> Steps[Backup]:
-    """Reads everything; changes nothing."""
-    model = yield from quiet(c, "Not backed up")
-    identity = c.identity
-    program = yield from upload_steps(c.nonces, None)
-    _ongoing(job, "parameters", 1, 4)
-    parameters: dict[str, tuple[Value, ...]] = {}
-    for name in parameter_names(model):
-        asked = [f"_{name}{axis}" for axis in model.axes] if per_axis(name) else [f"_{name}"]
-        values = yield from exact(c.nonces, asked, model.columns)
-        if None not in values:
-            parameters[name] = tuple(value for value in values if value is not None)
+    """Reads everything; changes nothing. With a budget what does not fit into it is left out, and named.
+
+    `running`: also while a program runs, to compare; its variables are then of different moments.
+    """
+    model = (yield from quiet(c, "Not backed up")) if not running else _readable(c, "Not compared")
+    quick, end = math.isfinite(budget_s), c.clock() + budget_s
+    _ongoing(job, "program", 0, 3)
+    known = c.listing if quick and not c.doubt else None
+    program = known if known is not None else (yield from upload_steps(c.nonces, None))
+    names, array_names = yield from _listed(c, model, program)
+    _ongoing(job, "variables", 1, 3)
+    values = yield from exact(c.nonces, names, model.columns, lambda: c.clock() >= end)
+    _ongoing(job, "parameters", 2, 3)
     motors = yield from exact(c.nonces, [f"_MO{axis}" for axis in model.axes], model.columns)
-    _ongoing(job, "variables", 2, 4)
-    variables, arrays = yield from _memory(c, model, program, job)
+    registers, asked = yield from _registers(c, model, lambda: c.clock() >= end)
+    arrays = {} if quick else (yield from _arrays(c, model, array_names, job))
+    identity = c.identity
     return Backup(
         model=model.name,
         revision=identity.text if identity is not None else "",
@@ -120,14 +142,48 @@ def backup_steps(
         port=port,
         taken=(taken or datetime.now()).isoformat(sep=" ", timespec="seconds"),
         note=note,
+        reason=reason,
         setup=setup,
-        parameters=parameters,
+        parameters=registers,
         motors_on="".join(axis for axis, off in zip(model.axes, motors, strict=True) if off == 0),
         program=program.rstrip("\n"),
-        variables=variables,
+        variables={name: value for name, value in zip(names, values, strict=False) if value is not None},
         arrays=arrays,
-        not_read=(*untold(model), *(name for name in parameter_names(model) if name not in parameters)),
-    )
+        not_read=(*untold(model), *(name for name in asked if name not in registers)),
+        left_out=(*names[len(values) :], *(name for name in parameter_names(model) if name not in asked),
+                  *(f"{name}[]" for name in array_names if quick)),
+    )  # fmt: skip
+
+
+def _readable(c: Controller, what: str) -> Model:
+    """The controller's model, when it can be read at all now; else one sentence why not."""
+    if c.model is None:
+        raise NotAllowed(f"{what}: the controller's model is not known.")
+    if c.resting():
+        raise NotAllowed(f"{what}: {c.resting()}")
+    return c.model
+
+
+def _registers(
+    c: Controller, model: Model, enough: Callable[[], bool]
+) -> Steps[tuple[dict[str, tuple[Value, ...]], list[str]]]:
+    """The parameters that the controller tells, as many values a line as fit, and which were asked."""
+    wanted = {
+        name: [f"_{name}{axis}" for axis in model.axes] if per_axis(name) else [f"_{name}"]
+        for name in parameter_names(model)
+    }
+    told = yield from exact(c.nonces, [each for group in wanted.values() for each in group], model.columns, enough)
+    found: dict[str, tuple[Value, ...]] = {}
+    asked: list[str] = []
+    at = 0
+    for name, group in wanted.items():
+        values = told[at : at + len(group)]
+        at += len(group)
+        if len(values) == len(group):
+            asked.append(name)
+            if None not in values:
+                found[name] = tuple(value for value in values if value is not None)
+    return found, asked
 
 
 def _ongoing(job: Job[Backup], phase: str, done: int, total: int) -> None:
@@ -136,26 +192,23 @@ def _ongoing(job: Job[Backup], phase: str, done: int, total: int) -> None:
     job.show(phase, done, total)
 
 
-def _memory(
-    c: Controller, model: Model, program: str, job: Job[Backup]
-) -> Steps[tuple[dict[str, Value], dict[str, tuple[Value, ...]]]]:
-    """Variables and arrays: those the controller lists, else those its program names."""
-    names, array_names = yield from _listed(c, model, program)
-    values = yield from exact(c.nonces, names, model.columns)
-    variables = {name: value for name, value in zip(names, values, strict=True) if value is not None}
+def _arrays(c: Controller, model: Model, names: Sequence[str], job: Job[Backup]) -> Steps[dict[str, tuple[Value, ...]]]:
     arrays: dict[str, tuple[Value, ...]] = {}
-    for place, name in enumerate(array_names):
-        _ongoing(job, f"array {name}", place, len(array_names))
+    for place, name in enumerate(names):
+        _ongoing(job, f"array {name}", place, len(names))
         size = yield from _size(c, name)
         elements = yield from exact(c.nonces, [f"{name}[{each}]" for each in range(size)], model.columns)
         arrays[name] = tuple(value for value in elements if value is not None)
-    return variables, {name: values for name, values in arrays.items() if values}
+    return {name: values for name, values in arrays.items() if values}
 
 
 def _listed(c: Controller, model: Model, program: str) -> Steps[tuple[list[str], list[str]]]:
+    """Variables and arrays: those the controller lists where it can, and those its program names."""
     variables, arrays = names_in(program)
     for command, found in (("LV", variables), ("LA", arrays)):
-        answer = yield from proved(c.nonces, command, 10.0)
+        if command not in COMMANDS or not COMMANDS[command].known_to(model):
+            continue
+        answer = yield from proved(c.nonces, command, 10.0, REFUSAL_S)
         if answer.kind is not Kind.ACCEPTED:
             yield from fence(c.nonces)
             continue
@@ -229,7 +282,7 @@ def lines_of(backup: Backup, model: Model) -> Iterator[str]:
 
 def _put(c: Controller, line: str) -> Steps[list[str]]:
     """Sends one line; what the controller says against it, in words."""
-    answer = yield from proved(c.nonces, line, LINE_S)
+    answer = yield from proved(c.nonces, line, LINE_S, REFUSAL_S)
     if answer.kind is Kind.ACCEPTED:
         return []
     if answer.kind is Kind.SILENT:

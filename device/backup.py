@@ -9,11 +9,10 @@ import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from datetime import datetime
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from codegen.difference_values import number_text, resolution
 from codegen.files import FileUnreadable, readable, save_text
 from codegen.models import MODELS, Model
 from codegen.twoletter import nodes
@@ -25,7 +24,6 @@ from codegen.twoletter.rows import Takes
 FORMAT = "twoletter backup"
 VERSION = 1
 SUFFIX = ".tlb"
-KEPT = 50  # automatic backups
 Value = int  # in 1/65536
 
 
@@ -39,12 +37,14 @@ class Backup:
     port: str = ""
     taken: str = ""
     note: str = ""
+    reason: str = ""  # why it was made: "before a download"
     parameters: Mapping[str, tuple[Value, ...]] = field(default_factory=dict)
     motors_on: str = ""
     program: str = ""
     variables: Mapping[str, Value] = field(default_factory=dict)
     arrays: Mapping[str, tuple[Value, ...]] = field(default_factory=dict)
-    not_read: tuple[str, ...] = ()
+    not_read: tuple[str, ...] = ()  # what the controller does not tell
+    left_out: tuple[str, ...] = ()  # what was not read to keep a download quick
     setup: str = ""  # the text of a `.tls`, where the person keeps one with it
 
 
@@ -67,11 +67,6 @@ def per_axis(name: str) -> bool:
     return COMMANDS[name].takes is Takes.AXIS_NUMBERS
 
 
-def resolution(name: str) -> Value:
-    """What a register tells apart: the controller rounds what it is given to such steps."""
-    return max(int(Fraction(COMMANDS[name].step or 0) * ONE), 1)
-
-
 def names_in(program: str) -> tuple[list[str], list[str]]:
     """Variables and arrays a program names, for controllers that can not list theirs (the SSC has no LV, no LA)."""
     variables: dict[str, None] = {}
@@ -90,12 +85,6 @@ def names_in(program: str) -> tuple[list[str], list[str]]:
 
 
 # ---------------------------------------------------------------------- numbers
-
-
-def number_text(value: Value) -> str:
-    """As a person reads it, exact: at most 16 binary places are at most 16 decimal ones."""
-    text = f"{abs(value) // ONE}.{abs(value) % ONE * 10**16 // ONE:016d}".rstrip("0").rstrip(".")
-    return f"-{text}" if value < 0 else text
 
 
 def number_of(text: str) -> Value:
@@ -134,7 +123,8 @@ def dumps(backup: Backup) -> str:
     data: dict[str, Any] = {
         "format": FORMAT, "version": VERSION, "model": backup.model, "revision": backup.revision,
         "serial": backup.serial, "port": backup.port, "taken": backup.taken, "note": backup.note,
-        "motors_on": backup.motors_on, "not_read": list(backup.not_read),
+        "reason": backup.reason, "motors_on": backup.motors_on, "not_read": list(backup.not_read),
+        **({"left_out": list(backup.left_out)} if backup.left_out else {}),
         "parameters": {
             name: dict(zip(axes, map(number_text, values), strict=True)) if per_axis(name) else number_text(values[0])
             for name, values in backup.parameters.items()
@@ -150,22 +140,6 @@ def dumps(backup: Backup) -> str:
 def save(path: str | Path, backup: Backup) -> None:
     """Writes the file; a crash leaves an old one whole."""
     save_text(path, dumps(backup))
-
-
-def keep(folder: Path, backup: Backup, now: datetime, most: int = KEPT) -> Path:
-    """Writes it under a name that tells when, never over another; beyond `most` the oldest kept ones go."""
-    folder.mkdir(parents=True, exist_ok=True)
-    name = f"{now:%Y-%m-%d %H.%M.%S} {backup.model}"
-    path = folder / f"{name}{SUFFIX}"
-    count = 1
-    while path.exists():
-        count += 1
-        path = folder / f"{name} ({count}){SUFFIX}"
-    save(path, backup)
-    kept = sorted(folder.glob(f"*{SUFFIX}"), key=lambda each: each.stat().st_mtime)
-    for old in kept[:-most]:
-        old.unlink(missing_ok=True)
-    return path
 
 
 def load(path: str | Path) -> Backup:
@@ -206,12 +180,14 @@ def loads(text: str) -> Backup:
         port=_text(data, "port"),
         taken=_text(data, "taken"),
         note=_text(data, "note"),
+        reason=_text(data, "reason"),
         parameters=_parameters(data, model),
         motors_on=_text(data, "motors_on"),
         program="\n".join(_texts(data.get("program", []), "program")),
         variables={name: _number(value, name) for name, value in _table(data, "variables").items()},
         arrays={name: _numbers(values, name) for name, values in _table(data, "arrays").items()},
         not_read=tuple(_texts(data.get("not_read", []), "not_read")),
+        left_out=tuple(_texts(data.get("left_out", []), "left_out")),
         setup=json.dumps(setup) if isinstance(setup, dict) else "",
     )
 

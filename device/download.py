@@ -321,10 +321,10 @@ def recover(waiting: Waiting, nonces: Iterator[str]) -> Steps[None]:
         yield Wait(0.3)
 
 
-def proved(nonces: Iterator[str], command: str, timeout_s: float) -> Steps[Answer]:
-    """A command and the proof that it was accepted."""
+def proved(nonces: Iterator[str], command: str, timeout_s: float, refusal_s: float = 0.0) -> Steps[Answer]:
+    """A command and the proof that it was accepted; with `refusal_s` a `?` and so much silence is a refusal."""
     nonce = next(nonces)
-    return (yield Send(f"{command};{framed(nonce, ())}\r".encode(), Proof(nonce), timeout_s))
+    return (yield Send(f"{command};{framed(nonce, ())}\r".encode(), Proof(nonce), timeout_s, refusal_s=refusal_s))
 
 
 def write_dated(folder: Path, text: str, now: datetime) -> Path:

@@ -13,14 +13,16 @@ from app.cli.transfer import waited
 from codegen.files import FileUnreadable, load_setup, setup_dumps
 from device.api import Controller, Job
 from device.backing_up import Restored, backup_steps, restore_steps
-from device.backup import Backup, keep, load, save
+from device.backup import Backup, load, save
+from device.backup_kept import controller_name, keep
 from device.tasks import Priority
 
 
-def backed_up(controller: Controller, port: str, note: str = "", setup: str = "") -> Backup:
+def backed_up(controller: Controller, port: str, note: str = "", setup: str = "", reason: str = "") -> Backup:
     """Everything this controller holds."""
     job: Job[Backup] = Job()
-    job.future = controller.run(backup_steps(controller, job, note, port, setup=setup), Priority.DOWNLOAD, "download")
+    steps = backup_steps(controller, job, note, port, setup=setup, reason=reason)
+    job.future = controller.run(steps, Priority.DOWNLOAD, "download")
     found: Backup = waited(job, port)
     return found
 
@@ -81,4 +83,5 @@ def restore(options: argparse.Namespace) -> int:
 
 def before(controller: Controller, port: str, folder: Path) -> Path:
     """Keeps what is about to be overwritten."""
-    return keep(folder, backed_up(controller, port, "kept before a restore"), datetime.now())
+    found = backed_up(controller, port, reason="before a restore")
+    return keep(folder / controller_name(found.model, controller.identity), found, datetime.now())

@@ -29,7 +29,7 @@ def test_a_controller_is_backed_up_and_another_becomes_the_same(
         line = ["--port", other.address, "--control"]
         assert main(["restore", str(file), *line]) == 0
         assert "Restored and compared" in capsys.readouterr().out
-        (before,) = (tmp_path / "data" / "backups").iterdir()
+        (before,) = (tmp_path / "data" / "backups" / "ssc1 1").iterdir()
         assert load(before).program == ""  # what was in the controller before is kept
         assert main(["upload", *line]) == 0
         assert capsys.readouterr().out == "#A\nSP 20000\nEN\n"

@@ -1,0 +1,102 @@
+"""Settings and variables of file, controller and EEPROM beside each other; numbers count 1/65536."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import lru_cache
+
+from codegen.compiled import code
+from codegen.difference import PLACES
+from codegen.fields import Dimension
+from codegen.instructions import UserSetup
+from codegen.setup import Setup
+from codegen.twoletter import nodes
+from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.evaluate import constant
+from codegen.twoletter.fixed import ONE
+from codegen.twoletter.parse import parse
+
+Key = tuple[str, str]  # a register and its axis ("" = none); a variable and ""
+Values = Mapping[Key, int]
+LENGTHS = {"counts": Dimension.DISTANCE, "counts/s": Dimension.SPEED, "counts/s2": Dimension.ACCELERATION}
+
+
+@dc.dataclass(frozen=True, slots=True)
+class ValueDifference:
+    """A value that is not the same everywhere; None where a place does not state it or is not known."""
+
+    key: Key
+    title: str
+    cells: tuple[int | None, int | None, int | None]
+    texts: tuple[str, str, str]
+
+    def words(self, other: int, base: int = 0) -> str:
+        """What the other place has otherwise than the base, as a sentence; nothing when they agree."""
+        ours, theirs = self.cells[base], self.cells[other]
+        if ours is None or theirs is None or ours == theirs:
+            return ""
+        return f"{self.title} is {self.texts[other]} in the {PLACES[other]}, {self.texts[base]} in the {PLACES[base]}"
+
+
+def number_text(value: int) -> str:
+    """As a person reads it, exact: at most 16 binary places are at most 16 decimal ones."""
+    text = f"{abs(value) // ONE}.{abs(value) % ONE * 10**16 // ONE:016d}".rstrip("0").rstrip(".")
+    return f"-{text}" if value < 0 else text
+
+
+def resolution(name: str) -> int:
+    """What a register tells apart: the controller rounds what it is given to such steps."""
+    return max(int(Fraction(COMMANDS[name].step or 0) * ONE), 1)
+
+
+def title_of(key: Key) -> str:
+    """ "Proportional of X (KP)"; a variable by its name."""
+    name, axis = key
+    if name not in COMMANDS:
+        return name
+    return f"{COMMANDS[name].title}{f' of {axis}' if axis else ''} ({name})"
+
+
+def register_text(key: Key, value: int, setup: Setup) -> str:
+    """A value as the person set it up: "200 mm (200000 counts)", else the controller's own number with its unit."""
+    name, axis = key
+    unit = COMMANDS[name].unit if name in COMMANDS else ""
+    plain = number_text(value)
+    if unit in ("flag", "code", "ratio", ""):
+        return plain
+    if unit in LENGTHS and axis and axis in setup.letters and setup.axis(axis).is_set_up:
+        there = setup.from_counts(LENGTHS[unit], axis, Fraction(value, ONE))
+        return f"{float(there):.6g} {setup.unit_text(LENGTHS[unit], axis)} ({plain} {unit})"
+    return f"{plain} {unit}"
+
+
+@lru_cache(maxsize=16)
+def wanted(setup: Setup) -> Values:
+    """What a setup wants in the registers: all it would send, as numbers of the controller."""
+    everything = UserSetup(motors=True, encoders=True, pid=True, feed_forward=True, smoothing=True, limits=True)
+    found: dict[Key, int] = {}
+    for _, statement in parse("\n".join(code(everything, setup))).statements():
+        if not isinstance(statement, nodes.Command):
+            continue
+        for letter, item in zip(setup.letters, statement.arguments, strict=False):
+            value = constant(item) if isinstance(item, nodes.EXPRESSIONS) else None
+            if value is not None:
+                found[statement.name, letter] = value
+    return found
+
+
+def value_differences(
+    file: Values | None, controller: Values | None, eeprom: Values | None, setup: Setup
+) -> Iterator[ValueDifference]:
+    """The registers that differ by more than the controller tells apart, in the controller's order."""
+    places = (file, controller, eeprom)
+    keys = dict.fromkeys(key for place in (controller, eeprom, file) if place is not None for key in place)
+    for key in keys:
+        step = resolution(key[0]) if key[0] in COMMANDS else 1
+        cells = [place.get(key) if place is not None else None for place in places]
+        there = [cell for cell in cells if cell is not None]
+        if there and max(there) - min(there) >= step:
+            texts = ["" if cell is None else register_text(key, cell, setup) for cell in cells]
+            yield ValueDifference(key, title_of(key), (cells[0], cells[1], cells[2]), (texts[0], texts[1], texts[2]))
