@@ -25,6 +25,9 @@ class World(Protocol):
 
     def stimulus(self, signal: str, value: float | str) -> None: ...
     def state(self) -> dict[str, Any]: ...
+    def second(self) -> Transport:
+        """The line to port 2; raises OpenFailed."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -111,7 +114,7 @@ class Simulated:
         from device.simulator.process import SimulatorProcess
 
         try:
-            process = SimulatorProcess(self._model, pty=os.name == "posix", baud=self._line.baud)
+            process = SimulatorProcess(self._model, pty=os.name == "posix", baud=self._line.baud, port2="127.0.0.1:0")
         except OSError as reason:
             raise OpenFailed(f"The simulator did not start ({reason}).") from reason
         try:
@@ -133,6 +136,12 @@ class Simulated:
             raise ValueError("it is still starting")
         state: dict[str, Any] = self._process.state()
         return state
+
+    def second(self) -> Transport:
+        """The line to its port 2; a socket, because what nobody reads must not hold up the controller."""
+        if self._process is None:
+            raise OpenFailed("The simulator is still starting; try again.")
+        return open_transport(self._process.address2)
 
     def close(self) -> None:
         """Ends the process."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,9 +34,24 @@ if TYPE_CHECKING:
     from widgets.terminal.code_window import CodeWindow
     from widgets.unsaved.window import UnsavedWork
 
-LAYOUTS: Mapping[str, tuple[str, ...]] = {
-    "Program": ("Instructions", "Display", "Problems"),
-    "Run": ("Instructions", "Display", "Messages"),
+
+@dataclass(frozen=True)
+class Layout:
+    """A ready arrangement: the panels that are there, and those of them in front. All others open from the menu."""
+
+    panels: tuple[str, ...]
+    front: tuple[str, ...]
+
+
+LAYOUTS: Mapping[str, Layout] = {
+    "Program": Layout(
+        ("Instructions", "Display", "Simulator", "Inspector", "Problems", "Messages", "Terminal"),
+        ("Instructions", "Display", "Problems"),
+    ),
+    "Run": Layout(
+        ("Instructions", "Display", "X-Y view", "Simulator", "Messages", "Terminal", "Problems"),
+        ("Instructions", "Display", "Messages"),
+    ),
 }
 
 
@@ -81,12 +97,13 @@ class Desk(QObject):
     def arrange(self, layout: str) -> None:
         """A ready layout."""
         self._settings.set("layout", layout)
-        self._window.arrange(LAYOUTS[layout])
+        self._window.arrange(LAYOUTS[layout].panels, LAYOUTS[layout].front)
 
     def restore(self) -> None:
         """The arrangement of last time, or the layout chosen last."""
         if not self._window.restore(self._settings.get("window")):
-            self._window.arrange(LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"]))
+            layout = LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"])
+            self._window.arrange(layout.panels, layout.front)
 
     def choose_theme(self, name: str, actions: Actions) -> None:
         """Light, dark or system, remembered."""

@@ -94,16 +94,16 @@ class Window(QMainWindow):
         for dock in self.docks.values():
             dock.show_state(kind, state)
 
-    def arrange(self, front: tuple[str, ...]) -> None:
-        """A ready layout: every dock back in its place, those named in front."""
+    def arrange(self, panels: tuple[str, ...], front: tuple[str, ...]) -> None:
+        """A ready layout: every dock back in its place, those of the layout open, those named in front."""
         for dock in self.docks.values():
             if dock.isFloating():
                 dock.setFloating(False)
         for docks in self._areas.values():
             for before, after in pairwise(docks):
                 self.tabifyDockWidget(before, after)
-        for dock in self.docks.values():
-            dock.show()
+        for title, dock in self.docks.items():
+            dock.setVisible(title in panels)
         for title in front:
             self.docks[title].raise_()
         self._size_docks()
@@ -118,6 +118,8 @@ class Window(QMainWindow):
                 bar.setProperty("floats", True)
                 bar.setAccessibleName("Panels")
                 bar.setToolTip("Double click: in a window of its own")
+                bar.setElideMode(Qt.TextElideMode.ElideNone)
+                bar.setUsesScrollButtons(True)
                 bar.tabBarDoubleClicked.connect(lambda index, bar=bar: self._float(bar.tabText(index)))
 
     def _float(self, title: str) -> None:

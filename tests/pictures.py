@@ -168,6 +168,22 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     rig.type("VP -1911,1911", "CR 1911,180,90", "VE", "BGS")
     stage.until(lambda: rig.simulation.state()["axes"]["Y"]["commanded"] > 7600)
     yield "panel-x-y-view", studio.window
+    yield from _operator(stage)
+
+
+def _operator(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """Both forms of the operator terminal, with what a program wrote on its display."""
+    keys = stage.studio.keys
+    stage.studio.desk.bring("Operator terminal")
+    stage.go()
+    keys.connect_button.click()
+    stage.until(lambda: keys.connect_button.text() == "Disconnect")
+    stage.rig.type('MG{P2}{^27},"E"{N}', 'MG{P2} "LENGTH (MM)  12.50"', 'MG{P2} "F1 START  F2 MENU"{N}')
+    stage.until(lambda: "MENU" in keys.words())
+    for form in ("Hand-held", "Panel"):
+        keys.form.setCurrentText(form)
+        stage.go()
+        yield f"panel-operator-{form.lower()}", stage.studio.window
 
 
 def _states(stage: Stage) -> Iterator[tuple[str, QWidget]]:

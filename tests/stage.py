@@ -18,11 +18,36 @@ from app.search import Candidate
 from app.settings import Settings
 from app.which_model import known_models
 from device.api import Badge, Controller, Kind, LineSettings, State
+from device.transport import Transport
+from device.transport.loopback import Loopback
 from tests.rig import Rig
 
 TICK_S = 0.033
 ASKS = 12  # the line of the question
 LENGTH = "\n".join(["#A", *(f"N={number}" for number in range(1, ASKS)), 'IN "Length?",LEN', "JP #A,LEN<0", "EN"])
+
+
+class SimulatedWorld:
+    """The outside of a simulated machine in this process, its port 2 too."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._simulation = rig.simulation
+        self.stimulus, self.state = rig.simulation.stimulus, rig.simulation.state
+
+    def second(self) -> Transport:
+        """Port 2; time passes by the stage's clock, not by reading."""
+        return PortTwo(self._simulation)
+
+
+class PortTwo(Loopback):
+    """Bytes of port 2, without waiting."""
+
+    def read(self, timeout_s: float) -> bytes:
+        return self.simulation.transmit(2)
+
+    def write(self, data: bytes) -> int:
+        self.simulation.receive(2, data)
+        return len(data)
 
 
 class Clock:
@@ -77,7 +102,7 @@ class Stage:
     def connect(self, kind: str = "simulator", model: str = "ssc2", answers: bool = True, **more: Any) -> Rig:
         """Another machine, in the situation that is asked for; waits until it has answered."""
         rig = self.clock.add(Rig(kind, model, began=self.clock.now, **more))
-        self.studio.connection.adopt(Opened(rig.controller, rig.simulation if kind == "simulator" else None), kind)
+        self.studio.connection.adopt(Opened(rig.controller, SimulatedWorld(rig) if kind == "simulator" else None), kind)
         if answers:
             self.until(lambda: rig.controller.state is State.READY)
         return rig
@@ -147,7 +172,7 @@ def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.
             known_models=known_models(settings),
         )
         clock.add(rig)
-        return Opened(rig.controller, rig.simulation if simulated else None)
+        return Opened(rig.controller, SimulatedWorld(rig) if simulated else None)
 
     studio = Studio(application, settings, folder, connect, lambda: list(ports), Pages(), clock=clock)
     if example:  # a copy: whatever is clicked, the one that is shipped stays as it is
