@@ -17,8 +17,8 @@ from app.desk import Desk
 from app.files import Files
 from app.follow import Follow, Program
 from app.found_working import FoundWorking
+from app.importing import Importing
 from app.leaving import Leaving
-from app.operator import Operator
 from app.options import Options
 from app.right_machine import RightMachine
 from app.run import Run
@@ -38,7 +38,6 @@ from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
-from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
 from widgets.plane.panel import PlanePanel
 from widgets.program.view import ProgramView
@@ -70,14 +69,14 @@ class Studio(QObject):
         self.window = Window(self.program)
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
-        self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
+        self.plane = PlanePanel(clock=clock)
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
+        self.importing = Importing(self.session, self.desk.ask, self.window)
         self.right = RightMachine(self.connection, self.session, self.desk.ask)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
-        self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.options = Options(settings, self._theme, self.window)
@@ -92,7 +91,6 @@ class Studio(QObject):
             self.display,
             self.messages,
             self.plane,
-            self.keys,
             self.terminal,
             self.simulator,
             self.ear,
@@ -120,12 +118,12 @@ class Studio(QObject):
         return {
             "new": self.files.new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
             "recover": desk.show_unsaved,
+            "import_module": lambda: self.importing.ask_file(self.files.folder()),
             "export_code": self.files.export_code, "options": self.options.show, "exit": self._exit,
             "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
             "setup": self._setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
-            "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
@@ -141,7 +139,6 @@ class Studio(QObject):
         window.add("Instructions", self.program.instructions, LEFT)
         window.add("Display", self.display, RIGHT, moves=True)
         window.add("X-Y view", self.plane, RIGHT)
-        window.add("Operator terminal", self.keys, RIGHT, moves=True)
         window.add("Simulator", self.simulator, RIGHT, moves=True)
         window.add("Inspector", self.program.inspector, RIGHT)
         window.add("Problems", self.program.problems, BOTTOM)
@@ -178,6 +175,7 @@ class Studio(QObject):
         self.run.downloaded.connect(self._downloaded)
         for said in (
             self.files.said,
+            self.importing.said,
             self.run.said,
             self.start.said,
             self.talk.said,
@@ -197,6 +195,7 @@ class Studio(QObject):
         window.status.progress.cancelled.connect(self.run.cancel)
         window.submenus["recent"].aboutToShow.connect(lambda: self.desk.fill_recent(self.files))
         self.desk.export_wanted.connect(self.files.export_code)
+        self.importing.placed.connect(self.program.tree.choose)
         self.program.said.connect(window.status.say)
         self.program.help_requested.connect(self.desk.show_help)
         self.program.problems.count_changed.connect(partial(self.desk.retitle, "Problems"))

@@ -51,7 +51,7 @@ class Files(QObject):
         """Asks for a file, after asking about unsaved work."""
         self.careful(
             "Open another program?",
-            lambda: choose.ask_open(self._window, "Open program", choose.PROGRAMS, self.open_path, self._folder()),
+            lambda: choose.ask_open(self._window, "Open program", choose.PROGRAMS, self.open_path, self.folder()),
         )
 
     def open_path(self, path: Path) -> None:
@@ -107,7 +107,7 @@ class Files(QObject):
     def save_as(self, then: Callable[[], None] | None = None) -> None:
         """Saves under a name that is asked for."""
         name = self._session.document.program.name or "program"
-        proposed = self._session.path or self._folder() / f"{name.lower().replace(' ', '_')}.tlp"
+        proposed = self._session.path or self.folder() / f"{name.lower().replace(' ', '_')}.tlp"
         choose.ask_save(
             self._window,
             "Save program",
@@ -126,7 +126,7 @@ class Files(QObject):
             "Export code",
             choose.CODE,
             lambda path: self._export(path, code),
-            self._folder() / f"{stem}.dmc",
+            self.folder() / f"{stem}.dmc",
             "dmc",
         )
 
@@ -183,7 +183,8 @@ class Files(QObject):
         self._settings.set("recent_files", [str(path), *others][:MOST_RECENT])
         self.recent_changed.emit()
 
-    def _folder(self) -> Path:
+    def folder(self) -> Path:
+        """Where programs are looked for first."""
         recent = self.recent
         return self._session.path.parent if self._session.path else recent[0].parent if recent else Path.home()
 
