@@ -105,6 +105,8 @@ ROWS: tuple[Row, ...] = (
     Row("terminal", "Terminal", "Machine", "Type commands, see replies", "Alt+2", "terminal", "main", "Terminal"),
     Row("display", "Display", "Machine", "Positions, inputs, outputs and switches", "Alt+3", "display", "main",
         "Display"),
+    Row("plane", "X-Y view", "Machine", "The way of two axes from above", "Alt+4", "measure"),
+    Row("operator", "Operator terminal", "Machine", "The terminal at port 2 of the controller", "Alt+5", "operator"),
     Row("simulator_panel", "Simulator switches", "Machine", "Flip the simulated machine's switches", "", "simulator"),
     Row("connect", "Connect…", "Controller", "Looks for a controller and offers what else can be done", "Ctrl+K",
         "connect"),

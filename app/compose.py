@@ -19,6 +19,7 @@ from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.importing import Importing
 from app.leaving import Leaving
+from app.operator import Operator
 from app.options import Options
 from app.right_machine import RightMachine
 from app.run import Run
@@ -38,6 +39,7 @@ from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
+from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
 from widgets.plane.panel import PlanePanel
 from widgets.program.view import ProgramView
@@ -69,7 +71,7 @@ class Studio(QObject):
         self.window = Window(self.program)
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
-        self.plane = PlanePanel(clock=clock)
+        self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.importing = Importing(self.session, self.desk.ask, self.window)
@@ -77,6 +79,7 @@ class Studio(QObject):
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
+        self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.options = Options(settings, self._theme, self.window)
@@ -91,6 +94,7 @@ class Studio(QObject):
             self.display,
             self.messages,
             self.plane,
+            self.keys,
             self.terminal,
             self.simulator,
             self.ear,
@@ -124,6 +128,7 @@ class Studio(QObject):
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
             "setup": self._setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
+            "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
@@ -139,6 +144,7 @@ class Studio(QObject):
         window.add("Instructions", self.program.instructions, LEFT)
         window.add("Display", self.display, RIGHT, moves=True)
         window.add("X-Y view", self.plane, RIGHT)
+        window.add("Operator terminal", self.keys, RIGHT, moves=True)
         window.add("Simulator", self.simulator, RIGHT, moves=True)
         window.add("Inspector", self.program.inspector, RIGHT)
         window.add("Problems", self.program.problems, BOTTOM)
