@@ -43,11 +43,16 @@ class Difference:
 class Line:
     """One line to send, what it does in words, and what it may do to the machine."""
 
+    command: str
+    axis: str
     text: str
     words: str
     caution: str
-    axis: str
     motor_off: bool  # only with the motor of the axis off
+
+    @property
+    def key(self) -> Key:
+        return self.command, self.axis
 
 
 def expressions(model: Model) -> dict[Key, str]:
@@ -159,7 +164,8 @@ def _line(setup: Setup, register: Register, letter: str) -> Line | None:
     assert number is not None  # wanted says so
     text = by_axis(register.command, {letter: number}).text
     words = f"{register.title} of {letter}: {_field_words(setup, register, letter)}"
-    return Line(text, words, register.caution.format(axis=letter), letter, register.motor_off)
+    caution = register.caution.format(axis=letter)
+    return Line(register.command, letter, text, words, caution, register.motor_off)
 
 
 def stated(setup: Setup, readings: Readings | None = None) -> frozenset[Key]:

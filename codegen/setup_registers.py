@@ -224,7 +224,7 @@ OF_FIELD: Mapping[str, tuple[Register, ...]] = {
     for name in dict.fromkeys(name for each in REGISTERS for name in each.fields)
 }
 GAIN = "GN"  # read only: ssc-tol-o-motion.txt l.1584, "not used for current version of controller"
-LIMITS = ("ER", "OE", "TL", "FL", "BL")  # what protects a machine (ssc-tol-o-motion.txt, System Limits)
+LIMITS = ("ER", "OE", "TL", "FL", "BL", "IL")  # ssc-tol-o-motion.txt, System Limits
 
 
 def limit_registers() -> tuple[Register, ...]:
