@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from codegen.models import Model
-from codegen.twoletter.checks import flow, memory, motion, ways
+from codegen.twoletter.checks import flow, memory, motion, moving, ways
 from codegen.twoletter.checks.line import line_problems
 from codegen.twoletter.facts import Facts, gather
 from codegen.twoletter.parse import parse
@@ -19,6 +19,7 @@ CHECKS: tuple[Callable[[Facts], Iterator[Problem]], ...] = (
     memory.arrays,
     memory.elements,
     memory.whole_arrays,
+    memory.before_dimension,
     memory.unassigned,
     memory.later_assignment,
     flow.duplicate_labels,
@@ -28,12 +29,15 @@ CHECKS: tuple[Callable[[Facts], Iterator[Problem]], ...] = (
     flow.bare_stop,
     flow.input_threads,
     flow.wrong_returns,
+    flow.stray_returns,
     ways.runs_into,
     ways.stack_grows,
     ways.call_depth,
     ways.sequences,
-    motion.still_moving,
+    moving.still_moving,
     motion.routine_missing,
+    motion.recordings,
+    motion.contours,
 )
 
 

@@ -121,3 +121,18 @@ def wrong_returns(facts: Facts) -> Iterator[Problem]:
                 yield RULES["wrong-return"].problem(
                     placed.line, span.start, span.end, name=name, wanted=wanted, found=statement.name
                 )
+
+
+def stray_returns(facts: Facts) -> Iterator[Problem]:
+    """RE and RI where no automatic routine leads to."""
+    ways = graph(facts)
+    routines = [number for name, number in facts.at_label.items() if name in ROUTINES and name != "AUTO"]
+    inside = set(ways.reached(*routines, calls=True))
+    for number in sorted(set(ways.reached(*ways.starts, calls=True)) - inside):
+        statement = facts.statements[number].statement
+        if isinstance(statement, Command) and statement.name in ("RE", "RI"):
+            belongs = "#LIMSWI and #POSERR" if statement.name == "RE" else "#ININT"
+            span = statement.span
+            yield RULES["stray-return"].problem(
+                facts.statements[number].line, span.start, span.end, found=statement.name, belongs=belongs
+            )

@@ -317,4 +317,33 @@ MEANING: tuple[Rule, ...] = (
         good="#A\nVM XY\n" + "".join(f"VP {n},0\n" for n in range(1, 512)) + "VE\nBGS\nEN",
         code=32,
     ),
+    Rule(
+        name="stray-return",
+        severity="warning",
+        message="{found} belongs to {belongs}; no such routine leads here.",
+        bad="#A\nSB 1\nRE",
+        good="#A\nJP #A\n#LIMSWI\nJP #B\n#B\nRE",
+    ),
+    Rule(
+        name="dimensioned-later",
+        severity="warning",
+        message="The program comes to this element of {name} before line {first} dimensions the array.",
+        bad="#A\nPOS[1]=5\nDM POS[5]\nEN",
+        good="#A\nJS #B\nPOS[1]=5\nEN\n#B\nDM POS[5]\nEN",
+        code=57,
+    ),
+    Rule(
+        name="record-pairs",
+        severity="error",
+        message="RD names {values} values, RA {arrays} arrays: they are paired one by one.",
+        bad="#A\nDM P[5],E[5]\nRA P[],E[]\nRD _TPX\nRC 1\nEN",
+        good="#A\nDM P[5],E[5]\nRA P[],E[]\nRD _TPX,_TEX\nRC 1\nEN",
+    ),
+    Rule(
+        name="contour-open",
+        severity="warning",
+        message="The contour that CM opens is never ended with DT 0 and CD 0: its axes wait for the next record.",
+        bad="#A\nCM X\nDT 2\nCD 100\nWC\nEN",
+        good="#A\nCM X\nDT 2\nCD 100\nWC\nDT 0\nCD 0\nEN",
+    ),
 )

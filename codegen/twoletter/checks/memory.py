@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from codegen.twoletter.checks.rules import RULES
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.evaluate import constant
-from codegen.twoletter.facts import Facts
-from codegen.twoletter.nodes import Dimension, Variable
+from codegen.twoletter.facts import Facts, expressions_of, walk
+from codegen.twoletter.graph import Graph, graph
+from codegen.twoletter.nodes import Dimension, Element, Variable
 from codegen.twoletter.problems import Problem
 from codegen.twoletter.rows import Takes
 
@@ -153,3 +154,49 @@ def whole_arrays(facts: Facts) -> Iterator[Problem]:
         for node in command.arguments:
             if isinstance(node, Dimension) and node.name not in sizes:
                 yield RULES["undimensioned"].problem(line, node.span.start, node.span.end, name=node.name)
+
+
+def before_dimension(facts: Facts) -> Iterator[Problem]:
+    """Elements that the program comes to before the DM of their array."""
+    ways = graph(facts)
+    made: dict[str, list[int]] = {}
+    for number in range(len(facts.statements)):
+        command = ways.command(number)
+        if command is not None and command.name == "DM":
+            for node in command.arguments:
+                if isinstance(node, Dimension):
+                    made.setdefault(node.name, []).append(number)
+    for name, places in made.items():
+        early = _reached_without(ways, set(places))
+        used = next((number for number in sorted(early) if _uses(facts, number, name)), None)
+        if used is not None:
+            placed = facts.statements[used]
+            span = placed.statement.span
+            first = facts.statements[places[0]].line + 1
+            yield RULES["dimensioned-later"].problem(placed.line, span.start, span.end, name=name, first=first)
+
+
+def _reached_without(ways: Graph, barred: set[int]) -> set[int]:
+    """What the first thread comes to without passing these statements, subroutines included."""
+    waiting, seen = [0] if ways.facts.statements else [], set[int]()
+    while waiting:
+        number = waiting.pop()
+        if number in seen or number in barred:
+            continue
+        seen.add(number)
+        called = ways.calls.get(number)
+        if called is None:
+            waiting += ways.nexts[number]
+        elif barred.isdisjoint(ways.reached(called, calls=True)):
+            waiting += (*ways.nexts[number], called)
+        else:
+            waiting.append(called)  # it makes the array: what follows the call has it
+    return seen
+
+
+def _uses(facts: Facts, number: int, name: str) -> bool:
+    """Whether a statement names an element of the array."""
+    statement = facts.statements[number].statement
+    nodes = [node for expression in expressions_of(statement) for node in walk(expression)]
+    target = getattr(statement, "target", None)
+    return any(isinstance(node, Element) and node.name == name for node in (*nodes, target))

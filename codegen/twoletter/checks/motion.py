@@ -1,65 +1,15 @@
-"""Checks of motion: commands that a moving axis refuses, interrupts without their routine."""
+"""Checks of interrupts without their routine, of recording, of contours."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from codegen.twoletter.checks.rules import RULES
-from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.evaluate import constant
 from codegen.twoletter.facts import Facts
-from codegen.twoletter.nodes import EXPRESSIONS, Axes, Command, Empty, Format, Label, Query
+from codegen.twoletter.graph import Graph, graph
+from codegen.twoletter.nodes import EXPRESSIONS, Command
 from codegen.twoletter.problems import Problem
-from codegen.twoletter.rows import BY_AXIS, Row
-
-SEQUENCE = "S"
-_AXES = "XYZW"
-_GOES_ELSEWHERE = frozenset({"JP", "JS", "EN", "RE", "RI", "ZS", "AB"})
-
-
-def axes_named(command: Command, row: Row, model_axes: str) -> set[str]:
-    """The axes a command sets or moves; S is the coordinated sequence."""
-    if command.axis is not None:
-        return {command.axis}
-    if row.needs == "coordinated":
-        return {SEQUENCE}
-    if row.takes in BY_AXIS:
-        places = zip(_AXES, command.arguments, strict=False)
-        return {axis for axis, argument in places if not isinstance(argument, Empty | Query | Format)}
-    letters = "".join(argument.letters for argument in command.arguments if isinstance(argument, Axes))
-    return set(letters or model_axes)
-
-
-def still_moving(facts: Facts) -> Iterator[Problem]:
-    """PR, BG … of an axis begun a few statements before, with no wait, jump or label between (error 7 or 21)."""
-    moving: set[str] = set()
-    for placed in facts.statements:
-        command = placed.statement
-        if isinstance(command, Label):
-            moving.clear()
-        if not isinstance(command, Command):
-            continue
-        row = COMMANDS[command.name]
-        axes = axes_named(command, row, facts.model.axes)
-        if row.trippoint or command.name in _GOES_ELSEWHERE:
-            moving.clear()
-        elif not row.moving and row.moving_mode != "jog" and axes & moving and not _only_asks(command):
-            again = row.moving_mode == "idle"
-            yield RULES["still-moving"].problem(
-                placed.line,
-                command.span.start,
-                command.span.end,
-                21 if again else 7,
-                text=command.name,
-                axes=" ".join(sorted(axes & moving)),
-            )
-            moving.clear()
-        if row.moving_mode == "idle":
-            moving |= axes
-
-
-def _only_asks(command: Command) -> bool:
-    return any(isinstance(argument, Query) for argument in command.arguments)
 
 
 def routine_missing(facts: Facts) -> Iterator[Problem]:
@@ -77,3 +27,44 @@ def _interrupts(command: Command) -> bool:
     arguments = command.arguments[:2] if command.name == "CI" else command.arguments
     values = [constant(argument) for argument in arguments if isinstance(argument, EXPRESSIONS)]
     return any(value is not None and value > 0 for value in values)
+
+
+def recordings(facts: Facts) -> Iterator[Problem]:
+    """RA and RD pair arrays and values one by one."""
+    arrays: Command | None = None
+    for line, command in facts.commands("RA", "RD"):
+        if command.name == "RA":
+            arrays = command
+        elif arrays is not None and command.arguments and len(command.arguments) != len(arrays.arguments):
+            yield RULES["record-pairs"].problem(
+                line,
+                command.span.start,
+                command.span.end,
+                values=len(command.arguments),
+                arrays=len(arrays.arguments),
+            )
+
+
+def contours(facts: Facts) -> Iterator[Problem]:
+    """CM whose records no DT 0 ends: the axes wait for the next one and take no other move."""
+    ways = graph(facts)
+    for number in range(len(facts.statements)):
+        command = ways.command(number)
+        if command is None or command.name != "CM" or not _records(ways, number):
+            continue
+        reached = (ways.command(each) for each in ways.reached(*ways.nexts[number], calls=True))
+        if not any(each is not None and each.name == "DT" and _zero(each) for each in reached):
+            span = command.span
+            yield RULES["contour-open"].problem(facts.statements[number].line, span.start, span.end)
+
+
+def _records(ways: Graph, number: int) -> bool:
+    reached = (ways.command(each) for each in ways.reached(*ways.nexts[number], calls=True))
+    return any(each is not None and each.name == "CD" for each in reached)
+
+
+def _zero(command: Command) -> bool:
+    """Whether the interval may be 0; of an expression nobody knows."""
+    first = command.arguments[0] if command.arguments else None
+    value = constant(first) if isinstance(first, EXPRESSIONS) else None
+    return value is None or value == 0

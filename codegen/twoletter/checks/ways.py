@@ -13,6 +13,7 @@ from codegen.twoletter.problems import Problem, Rule
 OPENS = ("LM", "VM")
 CLOSES = ("LE", "VE")
 SEGMENTS = {"LI": "LM", "VP": "VM", "CR": "VM"}
+ALONE = {**SEGMENTS, "CD": "CM", "WC": "CM"}  # what needs its mode somewhere in the program
 ENDLESS = -1  # the depth of a subroutine that calls itself
 ROOM = 511  # segments that can wait (commands.md, coordinated motion)
 
@@ -34,12 +35,17 @@ def _subroutines(ways: Graph) -> dict[int, str]:
 
 
 def runs_into(facts: Facts) -> Iterator[Problem]:
-    """The main program goes on into a subroutine that stands below it: its end would end the program."""
+    """The way goes on into a subroutine that stands below it: its end would end the program.
+
+    Of two called subroutines the first may end with the second; automatic ones are never come to so.
+    """
     ways = graph(facts)
     main = ways.main()
     begins = _subroutines(ways)
+    inside = set(ways.reached(*begins, stop=("ZS",)))
     for number, name in begins.items():
-        if number in ways.starts or number - 1 not in main or number not in ways.nexts[number - 1]:
+        above = main | inside if name in ROUTINES else main
+        if number in ways.starts or number - 1 not in above or number not in ways.nexts[number - 1]:
             continue
         yield _problem(facts, number - 1, RULES["runs-into"], name=name)
 
@@ -113,7 +119,7 @@ def _depths(called: dict[int, set[int]]) -> dict[int, int]:
 def sequences(facts: Facts) -> Iterator[Problem]:
     """LM or VM that no LE or VE closes; segments without LM or VM; more segments than can wait."""
     ways = graph(facts)
-    opened: set[str] = set()
+    opened = {command.name for _, command in facts.commands("CM") if command.arguments or len(facts.model.axes) == 1}
     for number in range(len(facts.statements)):
         command = ways.command(number)
         if command is None or not _opens(command):
@@ -124,7 +130,7 @@ def sequences(facts: Facts) -> Iterator[Problem]:
             yield _problem(facts, number, RULES["sequence-open"], text=command.name, closing=closing)
     for number in range(len(facts.statements)):
         command = ways.command(number)
-        wanted = SEGMENTS.get(command.name) if command is not None else None
+        wanted = ALONE.get(command.name) if command is not None else None
         if command is not None and wanted is not None and wanted not in opened:
             yield _problem(facts, number, RULES["segment-alone"], text=command.name, mode=wanted)
             return

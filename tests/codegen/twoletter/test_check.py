@@ -205,7 +205,7 @@ MANUAL = {
     "command error l.3069": (
         '#BEGIN\nIN "ENTER SPEED", SPEED\nJG SPEED;BG;\nJP #BEGIN\nEN\n#CMDERR\nJP#DONE,_ED<>2\nJP#DONE,_TC<>6\n'
         'MG "SPEED TOO HIGH"\nMG "TRY AGAIN"\nZS1\nJP #BEGIN\n#DONE\nZS0\nEN',
-        [],
+        ["still-moving"],  # fault of the manual: a second valid speed is answered by error 21
     ),
     "string apart l.3128": (
         '#TEST\nIN "ENTER",LEN{S6}\nFLEN=@FRAC[LEN]\nFLEN=$10000*FLEN\nLEN1=(FLEN&$00FF)\nLEN2=(FLEN&$FF00)/$100\n'
