@@ -32,12 +32,23 @@ class Ask(Protocol):
     def __call__(self, title: str, words: str, answers: Answers, picture: str = "help") -> None: ...
 
 
+class Before(Protocol):
+    """Keeps what an action is about to replace, then goes on with the program that was read (None: none was)."""
+
+    def __call__(self, reason: str, go_on: Callable[[str | None], None]) -> None: ...
+
+
+def _at_once(reason: str, go_on: Callable[[str | None], None]) -> None:
+    go_on(None)
+
+
 class Run(QObject):
     """Talks to the controller's memory; `job` is what is under way."""
 
     said = Signal(str)
     uploaded = Signal(str)
     downloaded = Signal(object)  # the Listing that is now in the controller
+    burned = Signal()  # what the controller holds is in the EEPROM
     show_problem = Signal(str)  # step id
 
     def __init__(
@@ -56,6 +67,7 @@ class Run(QObject):
         self.job: Job[Any] | None = None
         self.doing = ""
         self._now = now
+        self.before: Before = _at_once
         self._last: Sent | None = None  # under way, or sent last, of the program that is open
         self._sent: Sent | None = None  # verified
         self._known: tuple[object, Held] | None = None
@@ -80,12 +92,15 @@ class Run(QObject):
         return self._session.listing if percent == FULL else slowed(self._session.document, percent)
 
     def _download(self, then: Callable[[], None] | None, percent: int) -> None:
+        self.before("before a download", partial(self._send, then, percent))
+
+    def _send(self, then: Callable[[], None] | None, percent: int, old: str | None) -> None:
         listing = self._listing(percent)  # as sent: the document may change meanwhile
         name = program_label(self._session.document.program)
-        job = self._connection.controller.download(listing.text)
+        job = self._connection.controller.memory.download(listing.text, old=old)
         sent = Sent(name, tuple(program_lines(listing.text)), self._now().strftime("%H:%M"))
         self._last = sent
-        self._begin("Downloading", job, lambda done: self._downloaded(done, listing, sent, then))
+        self.begin("Downloading", job, lambda done: self._downloaded(done, listing, sent, then))
 
     def execute(self) -> None:
         """Runs the program when it is the one that was verified; otherwise says what is held and asks what is meant."""
@@ -169,7 +184,7 @@ class Run(QObject):
             self.job.cancel()
 
     def _read(self, finished: Callable[[Future[Any]], None]) -> None:
-        self._begin("Uploading", self._connection.controller.upload(), finished)
+        self.begin("Uploading", self._connection.controller.upload(), finished)
 
     def _read_first(self, then: Callable[[], None]) -> None:
         """What the controller holds is not known: it is read, then asked about."""
@@ -188,6 +203,10 @@ class Run(QObject):
             self.run_in_controller()
 
     def _burn(self, held: Held) -> None:
+        if self._still(held, "Not burned"):
+            self.before("before a burn", lambda _: self._burn_now(held))
+
+    def _burn_now(self, held: Held) -> None:
         if not self._still(held, "Not burned"):
             return
         self.doing = "Burning: leave the power on"
@@ -203,6 +222,8 @@ class Run(QObject):
 
     def _burned(self, future: Future[Any]) -> None:
         reply = future.result()
+        if reply.accepted:
+            self.burned.emit()
         burned = "The program is burned: it is there after the next power-up."
         self.said.emit(burned if reply.accepted else f"The program is not burned: {reply.reason}")
 
@@ -223,20 +244,35 @@ class Run(QObject):
         if then is not None and done.verified:
             then()
 
-    def _begin(self, doing: str, job: Job[Any], finished: Callable[[Future[Any]], None]) -> None:
+    def begin(
+        self,
+        doing: str,
+        job: Job[Any],
+        finished: Callable[[Future[Any]], None],
+        failed: Callable[[Future[Any]], None] | None = None,
+    ) -> None:
+        """Something with the controller's memory is under way; a failure is said unless it is taken care of."""
         self.job, self.doing = job, doing
-        self._then(job.future, finished)
+        self._then(job.future, finished, failed=failed)
 
     def _forget_open(self) -> None:
         """Another program is open: what was sent is no earlier state of it."""
         self._last = None
         self._sent = dc.replace(self._sent, open=False) if self._sent is not None else None
 
-    def _then(self, future: Future[Any], finished: Callable[[Future[Any]], None], before: str = "") -> None:
+    def _then(
+        self,
+        future: Future[Any],
+        finished: Callable[[Future[Any]], None],
+        before: str = "",
+        failed: Callable[[Future[Any]], None] | None = None,
+    ) -> None:
         def done(future: Future[Any]) -> None:
             self.job, self.doing = None, ""
             failure = failure_of(future)
-            if failure:
+            if failure and failed is not None:
+                failed(future)
+            elif failure:
                 self.said.emit(f"{before}{failure}")
             else:
                 finished(future)

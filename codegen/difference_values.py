@@ -5,18 +5,14 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from functools import lru_cache
 
-from codegen.compiled import code
 from codegen.difference import PLACES
 from codegen.fields import Dimension
-from codegen.instructions import UserSetup
 from codegen.setup import Setup
-from codegen.twoletter import nodes
+from codegen.setup_differences import counts_text
+from codegen.setup_registers import BY_COMMAND, REGISTERS
 from codegen.twoletter.commands import COMMANDS
-from codegen.twoletter.evaluate import constant
 from codegen.twoletter.fixed import ONE
-from codegen.twoletter.parse import parse
 
 Key = tuple[str, str]  # a register and its axis ("" = none); a variable and ""
 Values = Mapping[Key, int]
@@ -63,8 +59,8 @@ def register_text(key: Key, value: int, setup: Setup) -> str:
     """A value as the person set it up: "200 mm (200000 counts)", else the controller's own number with its unit."""
     name, axis = key
     unit = COMMANDS[name].unit if name in COMMANDS else ""
-    plain = number_text(value)
-    if unit in ("flag", "code", "ratio", ""):
+    plain = counts_text(BY_COMMAND[name], value) if name in BY_COMMAND else number_text(value)
+    if plain == "off" or unit in ("flag", "code", "ratio", ""):
         return plain
     if unit in LENGTHS and axis and axis in setup.letters and setup.axis(axis).is_set_up:
         there = setup.from_counts(LENGTHS[unit], axis, Fraction(value, ONE))
@@ -72,19 +68,14 @@ def register_text(key: Key, value: int, setup: Setup) -> str:
     return f"{plain} {unit}"
 
 
-@lru_cache(maxsize=16)
 def wanted(setup: Setup) -> Values:
-    """What a setup wants in the registers: all it would send, as numbers of the controller."""
-    everything = UserSetup(motors=True, encoders=True, pid=True, feed_forward=True, smoothing=True, limits=True)
-    found: dict[Key, int] = {}
-    for _, statement in parse("\n".join(code(everything, setup))).statements():
-        if not isinstance(statement, nodes.Command):
-            continue
-        for letter, item in zip(setup.letters, statement.arguments, strict=False):
-            value = constant(item) if isinstance(item, nodes.EXPRESSIONS) else None
-            if value is not None:
-                found[statement.name, letter] = value
-    return found
+    """What the setup states, register by register; a ceiling (top speed) is no value to compare."""
+    return {
+        (register.command, letter): value
+        for register in REGISTERS
+        for letter in setup.letters
+        if not register.ceiling and (value := register.wanted(setup, letter)) is not None
+    }
 
 
 def value_differences(

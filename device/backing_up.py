@@ -125,8 +125,8 @@ def backup_steps(
     model = (yield from quiet(c, "Not backed up")) if not running else _readable(c, "Not compared")
     quick, end = math.isfinite(budget_s), c.clock() + budget_s
     _ongoing(job, "program", 0, 3)
-    known = c.listing if quick and not c.doubt else None
-    program = known if known is not None else (yield from upload_steps(c.nonces, None))
+    program = yield from upload_steps(c.nonces, None)
+    c.set_listing(program)
     names, array_names = yield from _listed(c, model, program)
     _ongoing(job, "variables", 1, 3)
     values = yield from exact(c.nonces, names, model.columns, lambda: c.clock() >= end)

@@ -113,10 +113,13 @@ class Download:
         clock: Callable[[], float],
         folder: Path | None,
         today: Callable[[], datetime] = datetime.now,
+        old: str | None = None,
     ) -> None:
+        """`old`: the program in the controller, where a back-up has read it just before."""
         self.lines = program_lines(listing)
         self._job, self._model, self._line = job, model, line
         self._nonces, self._clock, self._folder, self._today = nonces, clock, folder, today
+        self._old = old
         self._phase = "before anything was sent"
         self._settle_s, self._behind_s = SETTLE_S, BEHIND_S
         self.touched = False
@@ -177,7 +180,7 @@ class Download:
     def _keep_old(self) -> Steps[Path | None]:
         self._phase = "while the old program was read"
         self._job.show("reading the old program", 0, len(self.lines))
-        old = yield from upload_steps(self._nonces, None)
+        old = self._old if self._old is not None else (yield from upload_steps(self._nonces, None))
         if self._folder is None or not old.strip():
             return None
         return write_dated(self._folder, old, self._today())

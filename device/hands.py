@@ -23,11 +23,13 @@ class Memory:
     def __init__(self, controller: Controller) -> None:
         self._c = controller
 
-    def download(self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None) -> Job[Downloaded]:
+    def download(
+        self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None, old: str | None = None
+    ) -> Job[Downloaded]:
         job: Job[Downloaded] = Job(progress)
         c = self._c
         download = Download(
-            listing, job, model=c.model, line=c.line, nonces=c.nonces, clock=c.clock, folder=c.program_folder
+            listing, job, model=c.model, line=c.line, nonces=c.nonces, clock=c.clock, folder=c.program_folder, old=old
         )
         job.future = c.run(self.downloading(download), Priority.DOWNLOAD, "download")
         return job
