@@ -108,7 +108,7 @@ class Controller:
         self.door = Door(self.line.address)
         self.waiting = Waiting()
         self.nonces = nonces()
-        self.poller = Poller(self.line, clock, self.nonces, self.resting, self._read)
+        self.poller = Poller(self.line, clock, self.nonces, self.resting, self._read, self._nothing_runs)
         self.memory = Memory(self)
         self.motion = Motion(self)
         self.io = Io(self)
@@ -367,6 +367,19 @@ class Controller:
     def rate_hz(self) -> float:
         """Cycles of live values a second."""
         return self.poller.rate_hz
+
+    @property
+    def line_share(self) -> float:
+        """How much of the line reading takes, 0 to 1."""
+        return self.poller.line_share
+
+    def hurry(self, on: bool) -> None:
+        """Reads as fast as the line can, also while a program runs; or at the usual pace again."""
+        self.poller.hurry = on
+
+    def _nothing_runs(self) -> bool:
+        """Whether it is known that no thread runs."""
+        return self.waiting.position == frozenset()
 
     @property
     def polling(self) -> bool:

@@ -13,7 +13,8 @@ from device.wire import Shape
 class Live:
     """One live value; `expression` has `{axis}` where it is one per axis.
 
-    `quick` ones are read in every round, `slow` ones once a second, the others in turn.
+    `quick` ones are read in every round, `slow` ones once a second, the others in turn; what is both, in every round
+    while a program runs.
     """
 
     name: str
@@ -51,7 +52,8 @@ ROWS: tuple[Live, ...] = (
     Live("status", "Status byte", "bits", "_TB", 3, per_axis=False),
     Live("time", "Controller clock", "time", "TIME", 10, per_axis=False),
     Live("error_code", "Error code", "code", "_TC", 3, per_axis=False, slow=True),
-    *(Live(f"thread{n}", f"Line of thread {n}", "line", f"_XQ{n}", 4, per_axis=False, quick=n == 0) for n in range(4)),
+    Live("thread0", "Line of thread 0", "line", "_XQ0", 4, per_axis=False, quick=True, slow=True),
+    *(Live(f"thread{n}", f"Line of thread {n}", "line", f"_XQ{n}", 4, per_axis=False) for n in range(1, 4)),
     *(Live(f"analog{n}", f"Analog input {n}", "voltage", f"@AN[{n}]", 2, 4, per_axis=False) for n in range(1, 9)),
 )
 LIVE: dict[str, Live] = {row.name: row for row in ROWS}

@@ -1,4 +1,8 @@
-"""What to ask and how often, from what is watched: at most 30 % of the line and little of the interpreter's time."""
+"""What to ask and how often, from what is watched.
+
+While a program runs at most 30 % of the line and little of the interpreter's time; while none runs most of the line;
+all of it where a panel asked for that.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +16,11 @@ from device.tasks import NotAllowed, Send, Step, Stopped, Wait
 from device.transport import LineSettings
 from device.wire import FRAME_COLUMNS, Answer, Frame, Kind, Shape, framed
 
-SHARE = 0.30  # of the line's time
+SHARE = 0.30  # of the line's time, in the busier direction, while a program runs
 LEAST_S = 0.025  # between requests: one command takes 0.5 ms, so 2 % of the interpreter
+IDLE_SHARE = 0.80  # of the time in which characters travel either way, while no program runs
+IDLE_LEAST_S = 0.012
+IDLE_TURN = 3  # rounds of the quick values to one line of others then
 SLOW_S = 1.0  # period of values that change rarely
 ALWAYS = ("thread0", "thread1", "thread2", "thread3", "time")
 REFUSALS = 3  # a value refused this often is not asked again
@@ -47,13 +54,17 @@ class Poller:
         nonces: Iterator[str],
         suspended: Callable[[], str],
         read: Callable[[dict[str, float], float], None],
+        idle: Callable[[], bool],
     ) -> None:
         self.ring = Ring(())
         self.columns = 80
         self.brief = 0  # fewer columns while somebody holds an axis: a release must not wait for a long read
         self.rate_hz = 0.0
+        self.line_share = 0.0  # of the time in which characters of polls travel
+        self.hurry = False  # as fast as the line can, whatever a program loses by it
         self._line, self._clock, self._nonces = line, clock, nonces
-        self._suspended, self._read = suspended, read
+        self._suspended, self._read, self._idle = suspended, read, idle
+        self._rounds = 0
         self._wanted: dict[str, tuple[str, ...]] = {}
         self._refused: Counter[str] = Counter()
         self._asked: dict[str, float] = {}  # when each value was asked for
@@ -84,7 +95,7 @@ class Poller:
             if not lines:
                 yield from self._rest(0.05)
                 if self._suspended():
-                    self.rate_hz = 0.0
+                    self.rate_hz = self.line_share = 0.0
                 continue
             for request in lines:
                 if self._suspended():
@@ -97,16 +108,21 @@ class Poller:
 
         Once a second the threads and the clock, together, because they tell whether something may ask.
         """
-        wanted = self.wanted()
-        quick = tuple(key for key in wanted if live.split(key)[0].quick)
+        wanted, idle = self.wanted(), self._idle()
+        rows = {key: live.split(key)[0] for key in wanted}
+        quick = tuple(key for key, row in rows.items() if row.quick and not (row.slow and idle))
         others = [key for key in wanted if key not in quick and self._is_due(key, now)]
         others.sort(key=lambda key: self._asked.get(key, 0.0))
         columns = self.brief or self.columns
-        lines = requests((*quick, *others), columns)[: len(requests(quick, columns)) + 1]
+        self._rounds += 1
+        more = 0 if quick and idle and self._rounds % IDLE_TURN else 1
+        lines = requests((*quick, *others), columns)[: len(requests(quick, columns)) + more]
         self._asked.update({key: now for line in lines for key, _, _ in line})
         if now >= self._always_due:
             self._always_due = now + SLOW_S
-            lines += requests(tuple(key for key in ALWAYS if key in self.ring.columns), self.columns)
+            always = tuple(key for key in ALWAYS if key in self.ring.columns)
+            lines += requests(always, self.columns)
+            self._asked.update(dict.fromkeys(always, now))
         return lines
 
     def _is_due(self, key: str, now: float) -> bool:
@@ -134,8 +150,21 @@ class Poller:
             self._read(values, start)
         elif answer.kind is Kind.UNCERTAIN and "?" in answer.text:
             yield from self._find_refused(request)
-        cost = max(len(text) + 1, sum(shape.width for shape in shapes) + 7) * self._line.byte_s
-        yield from self._rest(max(cost / SHARE - (self._clock() - start), LEAST_S - (self._clock() - start), 0.001))
+        out, back = len(text) + 1, sum(shape.width for shape in shapes) + 7
+        yield from self._rest(self._pause(out, back, self._clock() - start))
+        travelled = (out + back) * self._line.byte_s
+        self.line_share += (travelled / max(self._clock() - start, travelled, 1e-6) - self.line_share) / 8
+
+    def _pause(self, out: int, back: int, took: float) -> float:
+        """Seconds to leave the line to others after an exchange of so many characters."""
+        byte_s = self._line.byte_s
+        if self.hurry:
+            return 0.0
+        if self._idle():
+            whole = max((out + back) * byte_s / IDLE_SHARE, IDLE_LEAST_S)
+        else:
+            whole = max(max(out, back) * byte_s / SHARE, LEAST_S)
+        return max(whole - took, 0.001)
 
     def _find_refused(self, request: Request) -> PollSteps:
         """One value of the line may be unknown here: ask singly, and stop asking what is refused."""

@@ -49,14 +49,77 @@ def test_reading_never_clears_the_error_code() -> None:
     assert bench.ask("TC").strip() == "006"
 
 
+TURNING = "#A\nN=0\n#B\nN=N+1\nJP #B"
+
+
+def travelled(bench: Bench, seconds: float) -> tuple[float, float]:
+    """Shares of the time in which characters went out and came back."""
+    came = 0
+    transmit = bench.simulation.transmit
+
+    def counted(port: int) -> bytes:
+        nonlocal came
+        data: bytes = transmit(port)
+        came += len(data)
+        return data
+
+    bench.simulation.transmit = counted
+    bench.sent.clear()
+    bench.run(seconds)
+    bench.simulation.transmit = transmit
+    whole = seconds / bench.controller.line.byte_s
+    return len(bench.sent) / whole, came / whole
+
+
+def running(bench: Bench) -> Bench:
+    bench.result(bench.controller.download(TURNING).future)
+    assert bench.result(bench.controller.execute("A", anyway=True)).accepted
+    bench.controller.watch("all", bench.controller.columns)
+    bench.run(1.0)
+    return bench
+
+
 @pytest.mark.parametrize("baud", [9600, 19200, 38400])
-def test_reading_takes_less_than_its_share_of_the_line(baud: int) -> None:
+def test_beside_a_program_reading_takes_less_than_its_share_of_the_line(baud: int) -> None:
+    out, back = travelled(running(Bench("ssc4", baud=baud).ready()), 10.0)
+    assert 0.5 * SHARE <= max(out, back) <= SHARE + 0.02
+
+
+@pytest.mark.parametrize("baud", [9600, 19200, 38400])
+def test_while_nothing_runs_reading_takes_most_of_the_line(baud: int) -> None:
+    """A start is noticed at once: the first second of a program is read at its own pace already."""
     bench = Bench("ssc4", baud=baud).ready()
     bench.controller.watch("all", bench.controller.columns)
     bench.run(1.0)
-    bench.sent.clear()
-    bench.run(10.0)
-    assert 0.5 * SHARE <= len(bench.sent) * 10 / baud / 10.0 <= SHARE + 0.02
+    assert 0.6 <= sum(travelled(bench, 5.0)) <= 0.82
+    bench.result(bench.controller.download(TURNING).future)
+    assert bench.result(bench.controller.execute("A", anyway=True)).accepted
+    assert max(travelled(bench, 1.0)) <= SHARE + 0.06
+
+
+@pytest.mark.parametrize("baud", [9600, 19200])
+def test_all_of_the_line_where_it_is_asked_for(baud: int) -> None:
+    bench = running(Bench("ssc4", baud=baud).ready())
+    bench.controller.hurry(True)
+    used = sum(travelled(bench, 5.0))
+    assert used >= 0.9
+    assert bench.controller.line_share == pytest.approx(used, abs=0.06)
+    bench.controller.hurry(False)
+    bench.run(1.0)
+    assert max(travelled(bench, 5.0)) <= SHARE + 0.02
+
+
+def test_two_axes_are_seen_move_while_nothing_runs() -> None:
+    """What a picture of two axes needs at 19 200 baud."""
+    bench = Bench("ssc2").ready()
+    bench.controller.watch("picture", [*live_keys("position", "commanded", "moving"), "inputs", "outputs"])
+    bench.run(3.0)
+    assert bench.controller.rate_hz >= 9.0
+    print(f"{bench.controller.rate_hz:.1f} readings/s")
+
+
+def live_keys(*names: str) -> list[str]:
+    return [live.key(name, axis) for name in names for axis in "XY"]
 
 
 def test_closing_a_panel_lowers_traffic_and_its_values_become_unknown() -> None:
