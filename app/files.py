@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QBoxLayout, QMainWindow
 
 from app.file_bar import FileBar
+from app.in_use import user_of
 from app.run import Ask
 from app.session import ChangedOnDisk, NoPath, Session
 from app.settings import Settings
@@ -55,7 +56,26 @@ class Files(QObject):
         )
 
     def open_path(self, path: Path) -> None:
-        """Opens a file that was named."""
+        """Opens a file that was named; one that another studio has open is asked about."""
+        user = user_of(path)
+        if not user:
+            self._open_path(path)
+            return
+        words = (
+            f"{path.name} is open in another Twoletter Studio: {user}. "
+            "Whoever saves last overwrites what the other has saved."
+        )
+        answers = (("Open a copy", partial(self._open_copy, path)), ("Open it anyway", partial(self._open_path, path)))
+        self._ask("Somebody else works on this file", words, answers, "warning")
+
+    def _open_copy(self, path: Path) -> None:
+        """What the file holds now, without its name: Save asks for one."""
+        try:
+            self._session.open_copy(path)
+        except (FileUnreadable, OSError) as error:
+            self._ask("The program can not be opened", _sentence(error, path), (), "problem")
+
+    def _open_path(self, path: Path) -> None:
         try:
             self._session.open(path)
         except (FileUnreadable, OSError) as error:
@@ -112,10 +132,24 @@ class Files(QObject):
             self._window,
             "Save program",
             choose.PROGRAMS,
-            lambda path: self._write(lambda: self._session.save_as(path, overwrite=True), then),
+            lambda path: self._save_to(path, then),
             proposed,
             "tlp",
         )
+
+    def _save_to(self, path: Path, then: Callable[[], None] | None) -> None:
+        """Under a name that was chosen; the window has asked about an existing file, but not whose it is."""
+
+        def write() -> None:
+            self._write(lambda: self._session.save_as(path, overwrite=True), then)
+
+        user = user_of(path) if path.exists() else ""
+        if user:
+            words = f"{path.name} is open in another Twoletter Studio: {user}. Its work would be overwritten."
+            answers = [("Save under another name", lambda: self.save_as(then)), ("Overwrite it", write)]
+            self._ask("Somebody else works on this file", words, answers, "warning")
+        else:
+            write()
 
     def export_code(self, text: str | None = None) -> None:
         """Writes two-letter code (of the program unless given) into a file."""

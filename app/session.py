@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.disk import Disk, FileOnDisk
 from app.edited import Edited
+from app.in_use import Claim
 from app.recovery import Recovered, Recovery
 from codegen import files
 from codegen.document import Document
@@ -50,6 +51,7 @@ class Session(Edited):
         self._saved: Document = self.document
         self._file = FileOnDisk(self)
         self._file.changed.connect(self.disk_changed)
+        self._claim = Claim()
         self._recovery = Recovery(recovery_folder) if recovery_folder is not None else None
         self._autosave = QTimer(self, singleShot=True, interval=autosave_ms)
         self._autosave.timeout.connect(self.autosave_now)
@@ -154,6 +156,7 @@ class Session(Edited):
     def close(self) -> None:
         """The session ends in good order: no recovery copy stays behind."""
         self._autosave.stop()
+        self._claim.release()
         if self._recovery is not None:
             self._recovery.close()
 
@@ -169,6 +172,7 @@ class Session(Edited):
         self._saved = document if saved else Document()
         self.open_body = self.before = None
         self._file.follow(path)
+        self._claim.take(path)
         self.replaced.emit()
         self.document_changed.emit(old, document)
         self.insertion_changed.emit()
@@ -178,6 +182,7 @@ class Session(Edited):
         files.save(path, self.document)
         self._saved = self.document
         self._file.follow(path.absolute())
+        self._claim.take(path.absolute())
         self._after_save()
 
     def _after_save(self) -> None:

@@ -10,6 +10,7 @@ import sys
 import serial
 
 from device.transport import LineSettings, OpenFailed, TransportLost
+from device.transport.holder import holder_of, rival_of
 
 try:  # not on Windows; its error is no OSError
     from termios import error as terminal_error
@@ -41,6 +42,9 @@ class SerialPort:
             )
         except (serial.SerialException, OSError, ValueError) as reason:
             raise OpenFailed(why_not(device, reason)) from reason
+        if rival := rival_of(device):
+            self.close()
+            raise OpenFailed(in_use(device, rival))
 
     @property
     def description(self) -> str:
@@ -96,10 +100,15 @@ def why_not(device: str, reason: Exception) -> str:
     text = str(reason).lower()
     if number == errno.EACCES or "permission" in text or "access is denied" in text:
         if sys.platform == "win32":
-            return f"{device} is in use by another program; close it there and try again."
+            return in_use(device)
         return f'No permission to open {device}: run "sudo usermod -aG dialout $USER" and log in again.'
     if number == errno.EBUSY or "exclusively lock" in text or "busy" in text or number == errno.EWOULDBLOCK:
-        return f"{device} is in use by another program; close it there and try again."
+        return in_use(device, holder_of(device))
     if number == errno.ENOENT or "no such file" in text or "filenotfound" in text or "could not find" in text:
         return f"There is no port {device}; plug in the adapter or choose another port."
     return f"{device} did not open ({reason}); choose another port or check its settings."
+
+
+def in_use(device: str, who: str = "") -> str:
+    """Somebody else has it, by name where that is known."""
+    return f"{device} is in use by {who or 'another program'}; close it there and try again."
