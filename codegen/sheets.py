@@ -112,7 +112,7 @@ def with_cell(cells: Cells, row: int, column: int, text: str) -> Cells:
 def with_row(sheet: Sheet, cells: Cells, at: int) -> Cells | BadTable:
     """A row before that place: of positions half-way between its neighbours, of steps one that stands still."""
     if len(cells) >= sheet.most_rows:
-        return BadTable(f"the table is full: {sheet.most_rows} rows")
+        return BadTable(f"The table is full: {sheet.most_rows} rows")
     new = tuple(_between(sheet, cells, at, place) for place in range(len(sheet.columns)))
     return (*cells[:at], new, *cells[at:])
 

@@ -106,7 +106,7 @@ def test_a_new_row_lies_half_way_and_steps_stand_still() -> None:
     assert with_row(ONE, (("0",), ("1",)), 2) == (("0",), ("1",), ("1",))
     assert with_row(STEPS, (("0.5",),), 1) == (("0.5",), ("0",))
     full = with_row(ONE, (("0",),) * 257, 3)
-    assert isinstance(full, BadTable) and full.message == "the table is full: 257 rows"
+    assert isinstance(full, BadTable) and full.message == "The table is full: 257 rows"
     assert without_rows((("0",), ("1",), ("2",)), [0, 2]) == (("1",),)
 
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 from codegen import fields
 from widgets.form.buttons import Buttons, row_of
 from widgets.form.expression_menu import ExpressionMenu
+from widgets.form.grid_editor import GridEditor
 from widgets.form.offers import Offers
 from widgets.parts.look import look
 
@@ -366,6 +367,7 @@ EDITORS: dict[type[fields.Field], Any] = {
     fields.Text: lambda field, offers: (TextArea if field.lines else LineEditor)(field, offers),
     fields.MessageText: LineEditor,
     fields.Code: TextArea,
+    fields.Table: GridEditor,
     fields.LabelName: label_name,
     fields.VariableName: lambda field, offers: NameEditor(lambda now: now.variables, offers),
     fields.InputNumber: lambda field, offers: NameEditor(_inputs, offers),

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWi
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
 from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list, in_little_room, maker_for
+from widgets.form.grid_editor import GridEditor
 from widgets.form.offers import Offers
 from widgets.form.rows import RowsEditor
 from widgets.parts.look import look
@@ -98,6 +99,8 @@ class FieldsForm(QWidget):
         setup, field = self.offers.setup, fields.fields_of(self.item)[name]
         if isinstance(field, fields.ListOf):
             cell.editor.show_path(read.row_axes(self.item, field))
+        if isinstance(cell.editor, GridEditor):
+            cell.editor.show_item(self.item, setup)
         axis = axis or read.row_axis(field, self.path)
         problem = read.problem_of(self.item, name, setup, axis)
         if isinstance(cell.editor, RowsEditor) and cell.editor.rows:
@@ -279,6 +282,8 @@ def make_editor(field: fields.Field, offers: Offers, *, narrow: bool = False) ->
         return RowsEditor(field, offers, lambda offers: FieldsForm(offers, narrow=narrow), narrow=narrow)
     if narrow and isinstance(field, fields.Choice):
         return in_little_room(choice_list(field))
+    if narrow and isinstance(field, fields.Table):
+        return GridEditor(field, offers, narrow=True)
     editor: QWidget = maker_for(field, EDITORS)(field, offers)
     return in_little_room(editor) if narrow else editor
 
@@ -303,9 +308,9 @@ def _columns(members: Mapping[str, fields.Field], narrow: bool) -> list[dict[str
 
 def _rows_of(field: fields.Field) -> int:
     """About how high a field is."""
-    if isinstance(field, fields.ListOf):
-        return 8
-    return 4 if isinstance(field, fields.PerAxis | fields.Table) else 1
+    if isinstance(field, fields.ListOf | fields.Table):
+        return 9 if isinstance(field, fields.Table) else 8
+    return 4 if isinstance(field, fields.PerAxis) else 1
 
 
 def _groups(members: Mapping[str, fields.Field]) -> Iterator[tuple[bool, dict[str, fields.Field]]]:

@@ -10,6 +10,7 @@ from codegen.generate import code, compiled
 from codegen.instructions import Instruction
 from widgets.form.cell import focus_in
 from widgets.form.command_list import CommandList
+from widgets.form.curve_picture import CurvePicture
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
 from widgets.form.pictures import PICTURES
@@ -114,6 +115,13 @@ class InstructionForm(QWidget):
         empty = cell is not None and isinstance(cell.editor, RowsEditor) and not cell.editor.rows
         return cell.editor.invitation if cell is not None and empty else errors[0].message
 
+    def _advice(self) -> list[str]:
+        """Warnings that no field says already."""
+        item, setup = self.instruction, self.offers.setup
+        made = compiled(item, setup)
+        own = [each for each in made.warnings if read.warning_of(item, each.field, setup, each.axis) != each.message]
+        return [each.message for each in own if not made.errors]
+
     def show_instruction(self, instruction: Instruction) -> None:
         """Shows `instruction`; typing places stay where they are if it is of the same kind."""
         other = type(instruction) is not type(self.fields.item)
@@ -142,7 +150,8 @@ class InstructionForm(QWidget):
 
     def _refresh(self) -> None:
         setup = self.offers.setup
-        self.preview.show_words(read.sentence(self.instruction, setup), code(self.instruction, setup), self.problem())
+        words, lines = read.sentence(self.instruction, setup), code(self.instruction, setup)
+        self.preview.show_words(words, lines, self.problem(), self._advice())
         if self.picture is not None:
             self.picture.show_instruction(self.instruction)  # type: ignore[attr-defined]
         self.refreshed.emit()
@@ -156,7 +165,13 @@ class InstructionForm(QWidget):
             self.picture = make(self.offers)
             if isinstance(self.picture, CommandList):
                 self.picture.picked.connect(self._put_in)
-            if self.fields.tight:  # there is room below the shorter column
+            table = self.fields.cells.get(("table", ""))
+            if isinstance(self.picture, CurvePicture) and table is not None:
+                self.picture.point_moved.connect(table.editor.move_point)
+                self.picture.row_wanted.connect(lambda row: table.editor.view.go_to(row, 0))
+                table.editor.row_changed.connect(self.picture.mark_row)
+                self._beside.addWidget(self.picture, 1)
+            elif self.fields.tight:  # there is room below the shorter column
                 self.fields.last_column.addWidget(self.picture, 1)
             else:
                 self._beside.addWidget(self.picture, 1)

@@ -32,7 +32,11 @@ class Preview(QFrame):
         self.reason = QLabel()
         self.reason.setProperty("role", "quiet")
         self.reason.setWordWrap(True)
-        for label in (self.sentence, self.code, self.reason):
+        self.advice = QLabel()
+        self.advice.setProperty("role", "warning")
+        self.advice.setWordWrap(True)
+        self.advice.setAccessibleName("Advice")
+        for label in (self.sentence, self.code, self.reason, self.advice):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             label.setTextFormat(Qt.TextFormat.PlainText)
         column = QVBoxLayout(self)
@@ -41,10 +45,13 @@ class Preview(QFrame):
         column.addWidget(self.sentence)
         column.addWidget(self.code)
         column.addWidget(self.reason)
+        column.addWidget(self.advice)
         self.setMinimumHeight(64)
 
-    def show_words(self, sentence: str, code: Sequence[str], problem: str) -> None:
-        """Sentence and code; while something is wrong, a word on why there is no code."""
+    def show_words(self, sentence: str, code: Sequence[str], problem: str, advice: Sequence[str] = ()) -> None:
+        """Sentence and code; while something is wrong, a word on why there is no code; what to think of besides."""
+        self.advice.setText("\n".join(f"△ {unbroken(each)}" for each in advice))
+        self.advice.setVisible(bool(advice))
         self.sentence.setText(unbroken(sentence))
         self.code.setText("   ".join(map(_whole, code)) if len(code) <= SHOWN else _shortened(code))
         self.reason.setText(f"No code yet: {problem}" if problem else "" if code else "It adds no code.")
