@@ -233,7 +233,7 @@ class Run(QObject):
 
     def _executed(self, future: Future[Any]) -> None:
         reply = future.result()
-        self.said.emit("The program runs." if reply.accepted else f"The controller refused to run it: {reply.reason}")
+        self.said.emit("The program was started." if reply.accepted else f"The controller refused to run it: {reply.reason}")
 
     def _downloaded(self, future: Future[Any], listing: Listing, sent: Sent, then: Callable[[], None] | None) -> None:
         done = future.result()

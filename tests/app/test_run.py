@@ -125,7 +125,7 @@ def test_execute_runs_the_verified_program_at_its_label(stage: Stage) -> None:
     trigger(stage, "execute")
     stage.until(lambda: rig.running == [code(stage).index("AI 1")])
     assert rig.sent("XQ") == ["XQ #CUTTER,0"]
-    stage.until(lambda: "The program runs." in stage.studio.messages.texts(), 1.0)
+    stage.until(lambda: "The program was started." in stage.studio.messages.texts(), 1.0)
 
 
 def changed(stage: Stage) -> Rig:
@@ -157,7 +157,7 @@ def test_execute_asks_which_program_is_meant(stage: Stage, situation: Callable[[
     }  # fmt: skip
     held = rig.program
     answer(stage, "Run what is in the controller")
-    stage.until(lambda: stage.studio.messages.texts()[-1] == "The program runs.")
+    stage.until(lambda: stage.studio.messages.texts()[-1] == "The program was started.")
     assert rig.sent("XQ") == ["XQ"]
     assert rig.program == held
 

@@ -19,7 +19,7 @@ def slow_down(stage: Stage, percent: int = 25) -> None:
     stage.until(lambda: stage.studio.desk.question is not None)
     answer(stage, f"Download and execute at {percent} %")
     idle(stage)
-    stage.until(lambda: "The program runs." in stage.studio.messages.texts())
+    stage.until(lambda: "The program was started." in stage.studio.messages.texts())
 
 
 def test_the_slowed_program_is_sent_and_runs_after_asking(stage: Stage) -> None:
@@ -39,7 +39,7 @@ def test_the_slowed_program_is_sent_and_runs_after_asking(stage: Stage) -> None:
     assert [line for line in rig.program if not line.startswith(("SP", "NO"))] == [
         line for line in code(stage) if not line.startswith("SP")
     ]
-    stage.until(lambda: "The program runs." in stage.studio.messages.texts())
+    stage.until(lambda: "The program was started." in stage.studio.messages.texts())
     stage.until(lambda: 0 in stage.studio.program.code.executing)  # the source map holds for it
 
 
@@ -67,7 +67,7 @@ def test_once_sent_it_runs_again_without_asking(stage: Stage) -> None:
     stage.studio.actions["execute_25"].trigger()
     stage.go(10)
     assert stage.studio.desk.question is None
-    assert stage.studio.messages.texts()[-1] == "The program runs."
+    assert stage.studio.messages.texts()[-1] == "The program was started."
 
 
 def test_execute_asks_before_it_goes_back_to_full_speed_and_sends_the_real_one(stage: Stage) -> None:
