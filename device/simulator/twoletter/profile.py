@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 Change: TypeAlias = Mapping[str, Value]
 
-CHANGED: Final = ("reply", "default", "low", "high", "step", "moving", "program", "port", "burned")
+CHANGED: Final = ("reply", "default", "low", "high", "step", "moving", "burned")
 """What `commands` may correct of a row."""
-FLAGS: Final = ("moving", "program", "port", "burned")
+FLAGS: Final = ("moving", "burned")
 
 
 @dataclass(frozen=True, slots=True)

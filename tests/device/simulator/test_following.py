@@ -147,3 +147,32 @@ def test_latch_captures_at_its_edge(edge: int) -> None:
     bench.wait(50)
     assert int(bench.ask("RLX")) == (low if edge == -1 else high)
     assert bench.ask("MG _ALX{F1.0}") == " 0"
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_ap_goes_on_over_the_wrap_of_the_master(direction: int) -> None:
+    # SSC manual: AP waits until the position is crossed; with EB1 the master's position starts anew at each cycle, so
+    # a place in the next cycle is crossed there and not where the count jumps from 6000 to 0
+    for place in (100, 2000, 5990):
+        bench = Bench("ssc2")
+        bench.type("EA X;EM 6000,0;EP 2000,0;EB1\r")
+        start = 5000 if direction > 0 else 1000
+        bench.type(f"PR {start};SP 20000;BG X\r", 1500)
+        assert bench.position(0) == start
+        bench.load(f"#A\nPR {direction * 9000};BGX;AP {place};P=_TPX;R=_RPX;AMX;EN")
+        bench.simulation.execute("#A")
+        bench.wait(3000)
+        variables = bench.simulation.unit.state.variables
+        passed = (variables["P"] // 65536 - place) * direction % 6000
+        # the way of a sample and of the command behind it at 20 000 counts/s: 20 and 10 counts
+        assert 0 <= passed <= 40, (place, variables)
+        assert not bench.simulation.unit.running()
+
+
+def test_ap_outside_the_cycle_clears_at_the_end_of_the_move() -> None:
+    bench = Bench("ssc2")
+    bench.type("EA X;EM 6000,0;EP 2000,0;EB1\r")
+    bench.load("#A\nPR 9000;SP 20000;BGX;AP -50;P=_BGX;EN")
+    bench.simulation.execute("#A")
+    bench.wait(3000)
+    assert bench.simulation.unit.state.variables["P"] == 0

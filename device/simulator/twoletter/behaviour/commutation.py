@@ -51,11 +51,17 @@ def calibrate(unit: Unit, strand: Strand, call: Call) -> None:
 def phase(unit: Unit, strand: Strand, call: Call) -> None:
     """BD degrees: the phase here."""
     _must_be_brushless(unit)
-    unit.motion.commutation.set_phase(0, _volts_or_degrees(unit, call) / _phase_unit(unit))
+    if unit.profile.phase_operand == "degrees":
+        unit.motion.commutation.set_phase(0, _volts_or_degrees(unit, call))
+        return
+    counts = call.whole(0)
+    if not 0 <= counts <= unit.state.registers["BM"][0] // ONE:
+        raise CommandError(6)
+    unit.motion.commutation.set_phase(0, counts / _phase_unit(unit))
 
 
 def _phase_unit(unit: Unit) -> float:
-    """What a degree is in BD and _BD (phase_operand)."""
+    """What a degree is in _BD (phase_operand)."""
     return 1.0 if unit.profile.phase_operand == "degrees" else unit.state.registers["BM"][0] / ONE / 360.0
 
 
