@@ -26,6 +26,8 @@ from app.run import Run
 from app.search import Candidate, Search
 from app.session import Session
 from app.settings import Settings
+from app.setup_desk import SetupDesk
+from app.setup_file import last_setup
 from app.start import Start
 from app.stop_key import StopKey
 from app.talk import Talk
@@ -35,6 +37,7 @@ from app.which_model import WhichModel
 from app.window import BOTTOM, LEFT, RIGHT, Window
 from codegen.document import Document
 from codegen.generate import Listing
+from codegen.setup import Setup
 from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
@@ -64,7 +67,7 @@ class Studio(QObject):
         super().__init__()
         self.settings = settings
         self.theme = Theme(application, Choice(settings.get("theme")))
-        self.session = Session(recovery_folder=data / "recovery")
+        self.session = Session(Document(setup=last_setup(data) or Setup()), recovery_folder=data / "recovery")
         self.connection = Connection(connect, Controller.offline, self)
         self.tick = Tick(self)
         self.program = ProgramView(self.session)
@@ -76,6 +79,7 @@ class Studio(QObject):
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.importing = Importing(self.session, self.desk.ask, self.window)
         self.right = RightMachine(self.connection, self.session, self.desk.ask)
+        self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
@@ -87,6 +91,7 @@ class Studio(QObject):
         self.met = FoundWorking(self.connection, self.desk.ask, self.connection.stop, self.run.upload)
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
+        self.setup.facts = self.follow.facts
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
@@ -120,14 +125,14 @@ class Studio(QObject):
     def _handlers(self) -> dict[str, Callable[[], None]]:
         desk, run, start = self.desk, self.run, self.start
         return {
-            "new": self.files.new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
+            "new": self._new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
             "recover": desk.show_unsaved,
             "import_module": lambda: self.importing.ask_file(self.files.folder()),
             "export_code": self.files.export_code, "options": self.options.show, "exit": self._exit,
             "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
-            "setup": self._setup, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
+            "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
@@ -163,6 +168,7 @@ class Studio(QObject):
             self.leaving.look,
             self.ear.look,
             self.follow.look,
+            self.setup.look,
             self.which.look,
             self.met.look,
             self.search.look,
@@ -174,7 +180,7 @@ class Studio(QObject):
         self.connection.changed.connect(self._attach)
         self.session.document_changed.connect(self._document_changed)
         self.session.replaced.connect(self._another_document)
-        self.start.setup_wanted.connect(self._setup)
+        self.start.setup_wanted.connect(self.setup.show)
         self.start.exit_wanted.connect(self._exit)
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
@@ -249,11 +255,9 @@ class Studio(QObject):
 
         self.desk.ask("About Twoletter Studio", about_words(), (), "info")
 
-    def _setup(self) -> None:
-        self.desk.show_setup()
-        identity, page = self.connection.controller.identity, self.desk.setup_page
-        if page is not None:
-            page.show_connected(identity.serial if identity is not None else None)
+    def _new(self) -> None:
+        """An empty program for the machine whose setup was finished last."""
+        self.files.careful("Start a new program?", lambda: self.session.new(self.setup.default))
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

@@ -27,10 +27,7 @@ from widgets.parts.pictures import fit_pictures
 from widgets.parts.question import Question
 
 if TYPE_CHECKING:
-    from codegen.rescale import Keep
-    from codegen.setup import Setup
     from widgets.help.panel import HelpPanel
-    from widgets.setup.page import SetupPage
     from widgets.terminal.code_window import CodeWindow
     from widgets.unsaved.window import UnsavedWork
 
@@ -73,7 +70,6 @@ class Desk(QObject):
         self._window, self._session, self._settings = window, session, settings
         self._theme, self._messages, self._pages = theme, messages, pages
         self.question: Question | None = None
-        self.setup_page: SetupPage | None = None
         self.help: QDialog | None = None
         self.upload: CodeWindow | None = None
         self.unsaved: UnsavedWork | None = None
@@ -119,20 +115,6 @@ class Desk(QObject):
     def retitle(self, title: str, count: int) -> None:
         """A number behind the title of a panel."""
         self._window.docks[title].setWindowTitle(f"{title} {count}" if count else title)
-
-    def show_setup(self) -> None:
-        """The first page of the setup."""
-        from widgets.setup.page import SetupPage
-
-        if self.setup_page is not None and self.setup_page.isVisible():
-            self.setup_page.raise_()
-            self.setup_page.activateWindow()
-            return
-        document = self._session.document
-        content = any((document.program.configuration, document.program.main, document.program.routines))
-        self.setup_page = SetupPage(document.setup, content, self._window)
-        self.setup_page.accepted_setup.connect(self._take_setup)
-        self.setup_page.show()
 
     def show_help(self, page: str) -> None:
         """A help page in a window of its own."""
@@ -237,11 +219,6 @@ class Desk(QObject):
         self._settings.set("window", self._window.arrangement())
         self._session.close()
         QApplication.quit()
-
-    def _take_setup(self, setup: Setup, keep: Keep) -> None:
-        from codegen.rescale import with_setup
-
-        self._session.set_document(with_setup(self._session.document, setup, keep), "Change setup")
 
 
 def _line(left: Recovered) -> str:

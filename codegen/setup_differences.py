@@ -95,10 +95,14 @@ def difference(setup: Setup, register: Register, letter: str, found: Value) -> D
         letter,
         register.title,
         f"at most {mine}" if register.ceiling and states else mine,
-        f"{told} (as after a reset)" if found == factory(register.command) else told,
+        _as_after_reset(told) if found == factory(register.command) else told,
         states,
         tells=not register.ceiling,
     )
+
+
+def _as_after_reset(words: str) -> str:
+    return f"{words[:-1]}, as after a reset)" if words.endswith(")") else f"{words} (as after a reset)"
 
 
 def counts_text(register: Register, value: Value) -> str:

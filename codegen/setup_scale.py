@@ -32,6 +32,9 @@ class Length(StrEnum):
     INCH = "inch"
 
 
+LENGTH_WORDS = {Length.MM: "Millimetres", Length.INCH: "Inches"}
+
+
 class Drive(StrEnum):
     PITCH = "pitch"
     TURNS = "turns"
@@ -80,6 +83,7 @@ class Mechanics:
         Choice(
             label="Drawn in",
             kind=Length,
+            words=LENGTH_WORDS,
             help="The unit of pitch, belt or diameter here.",
             when={"drive": (Drive.PITCH, Drive.TURNS, Drive.BELT, Drive.WHEEL)},
         ),

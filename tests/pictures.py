@@ -229,12 +229,7 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "serial-setup", start.serial
     studio.options.show()
     yield "settings", studio.options.page
-    desk.show_setup()
-    yield "setup", desk.setup_page
-    desk.setup_page.rows["X"].unit.setCurrentIndex(desk.setup_page.rows["X"].unit.findData(Unit.MM))
-    desk.setup_page.rows["X"].scale.setText("25.4")
-    desk.setup_page.done_button.click()
-    yield "setup-scale-changed", desk.setup_page
+    yield from _setup(stage)
     answers: list[tuple[str, Callable[[], None]]] = [("Download and execute", lambda: None), ("Run it", lambda: None)]
     desk.ask("Which program?", "The program was changed since it was downloaded.", answers, "warning")
     yield "question", desk.question
@@ -255,6 +250,43 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "display-floating", studio.window.docks["Display"]
     studio.window.docks["Display"].setFloating(False)
     studio.desk.arrange("Program")
+
+
+def _setup(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """Every page of the setup, what differs from a controller, the calculator, and the question about the scale."""
+    import dataclasses as dc
+
+    studio = stage.studio
+    before = studio.session.document
+    studio.session.set_setup(dc.replace(before.setup, model="ssc2"))
+    rig = stage.connect("machine", "ssc2")
+    rig.controller.take_control()
+    rig.type("KP 12.5", "FL 20000", "MT ,-1")
+    studio.setup.show()
+    stage.go()
+    window = studio.setup.window
+    assert window is not None
+    for page in window.pages[:-1]:
+        window.open_page(page)
+        stage.go()
+        yield f"setup-{page.title.lower().replace(' ', '-')}", window
+    window.read.click()
+    stage.until(lambda: bool(window.comparing.readings))
+    stage.go()
+    yield "setup-compared", window
+    window.open_page(window.servo)
+    yield "setup-servo-compared", window
+    window.open_page(window.axes)
+    window.axes.rows["X"].work_out.click()
+    assert window.axes.calculator is not None
+    window.axes.calculator.form.cells["pitch", ""].editor.setText("7")
+    window.axes.calculator.form.cells["pitch", ""].editor.textEdited.emit("7")
+    yield "setup-calculator", window.axes.calculator
+    window.axes.calculator.take.click()
+    window.done_button.click()
+    yield "setup-scale-changed", window
+    window.reject()
+    studio.session.undo()
 
 
 def _unsaved(stage: Stage) -> Iterator[tuple[str, QWidget]]:

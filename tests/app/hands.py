@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QLineEdit,
+    QListWidget,
     QMenu,
     QPushButton,
     QToolButton,
@@ -69,6 +70,10 @@ class Hands:
 
     def choose(self, box: QComboBox, words: str) -> None:
         """Chooses an entry of a list."""
+        raise NotImplementedError
+
+    def turn_to(self, pages: QListWidget, title: str) -> None:
+        """Chooses a page of a window."""
         raise NotImplementedError
 
     # ---- made of these
@@ -163,6 +168,11 @@ class Mouse(Hands):
         QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=place)
         until(lambda: box.currentIndex() == index, f"{words} to be chosen")
 
+    def turn_to(self, pages: QListWidget, title: str) -> None:
+        (item,) = pages.findItems(title, Qt.MatchFlag.MatchStartsWith)
+        QTest.mouseClick(pages.viewport(), Qt.MouseButton.LeftButton, pos=pages.visualItemRect(item).center())
+        until(lambda: pages.currentItem() is item, f"the page {title}")
+
     def confirm(self, dialog: InstructionDialog) -> None:
         self.press(dialog.buttons["Add"])
 
@@ -218,6 +228,14 @@ class Keys(Hands):
         for _ in range(index):
             QTest.keyClick(box, Qt.Key.Key_Down)
         until(lambda: box.currentIndex() == index, f"{words} to be chosen")
+
+    def turn_to(self, pages: QListWidget, title: str) -> None:
+        (item,) = pages.findItems(title, Qt.MatchFlag.MatchStartsWith)
+        self.go_to(pages)
+        QTest.keyClick(pages, Qt.Key.Key_Home)
+        for _ in range(pages.row(item)):
+            QTest.keyClick(pages, Qt.Key.Key_Down)
+        until(lambda: pages.currentItem() is item, f"the page {title}")
 
     def confirm(self, dialog: InstructionDialog) -> None:
         QTest.keyClick(QApplication.focusWidget() or dialog, Qt.Key.Key_Return)

@@ -24,7 +24,7 @@ from app.studio import begin
 from codegen.models import MODELS
 from device.api import Badge, Kind, State
 from tests.app.hands import PATIENCE_S, Hands, Keys, Mouse, shown, until
-from widgets.setup.page import SetupPage
+from widgets.setup.window import SetupWindow
 
 CODE = [
     "#CUTTER",
@@ -87,11 +87,12 @@ def leave(studio: Studio, studios: list[Studio]) -> None:
 
 def set_up_machine(hands: Hands) -> None:
     hands.act("setup")
-    page = shown(SetupPage)
-    assert isinstance(page, SetupPage)
-    hands.choose(page.model, MODELS["ssc1"].title)
-    hands.fill(page.rows["X"].scale, "637")
-    hands.press(page.done_button)
+    window = shown(SetupWindow)
+    assert isinstance(window, SetupWindow)
+    hands.choose(window.controller.model, MODELS["ssc1"].title)
+    hands.turn_to(window.list, window.axes.title)
+    hands.fill(window.axes.rows["X"].scale, "637")
+    hands.press(window.done_button)
     axis = hands.studio.session.document.setup.axis("X")
     assert (hands.studio.session.document.setup.model, axis.symbol, axis.scale) == ("ssc1", "in", 637)
 

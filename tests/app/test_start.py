@@ -117,7 +117,7 @@ def test_the_welcome_window_offers_what_the_manual_offers(stage: Stage, way: str
     shown = {
         "simulator": lambda: stage.controller.kind is Kind.SIMULATOR,
         "serial": lambda: stage.studio.start.serial is not None and stage.studio.start.serial.isVisible(),
-        "setup": lambda: stage.studio.desk.setup_page is not None and stage.studio.desk.setup_page.isVisible(),
+        "setup": lambda: stage.studio.setup.window is not None and stage.studio.setup.window.isVisible(),
         "offline": lambda: stage.studio.start.welcome is not None and not stage.studio.start.welcome.isVisible(),
     }
     assert shown[way]()

@@ -51,9 +51,9 @@ def _serial(stage: Stage) -> QWidget:
 
 
 def _setup(stage: Stage) -> QWidget:
-    stage.studio.desk.show_setup()
-    assert stage.studio.desk.setup_page is not None
-    return stage.studio.desk.setup_page
+    stage.studio.setup.show()
+    assert stage.studio.setup.window is not None
+    return stage.studio.setup.window
 
 
 def _settings(stage: Stage) -> QWidget:

@@ -1,0 +1,271 @@
+"""The setup of a machine in one window: pages on the left, files above, the controller below."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtWidgets import (
+    QDialog,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from codegen.setup import Setup, setup_problems
+from codegen.setup_differences import Key, Readings
+from codegen.setup_plate import plate_problem
+from widgets.parts.look import look
+from widgets.setup.comparing import Comparing
+from widgets.setup.pages.axes import AxesPage
+from widgets.setup.pages.compare import Choice, ComparePage
+from widgets.setup.pages.controller import ControllerPage, serial_problem
+from widgets.setup.pages.limits import LimitsPage
+from widgets.setup.pages.motors import ServoPage, StepperPage
+from widgets.setup.pages.names import NamesPage, NotesPage
+from widgets.setup.pages.page import Page, Shown, quiet, say
+
+
+@dataclass(frozen=True)
+class Online:
+    """What can be done with a controller now: the reason why not, or nothing."""
+
+    read: str = "Connect a controller or start the simulator first."
+    burn: str = "Connect a controller or start the simulator first."
+    serial: int | None = None
+
+
+class SetupWindow(QDialog):
+    """Not modal. `finished_setup(setup, keep, keys)`: the person is done; `keys` are the registers to be sent."""
+
+    finished_setup = Signal(object, str, object)
+    changed = Signal()
+    new_wanted = Signal()
+    open_wanted = Signal()
+    save_wanted = Signal()
+    save_as_wanted = Signal()
+    read_wanted = Signal()
+    burn_wanted = Signal()
+
+    def __init__(self, setup: Setup, has_content: bool, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setModal(False)
+        self.setProperty("helpPage", "Setup")
+        self.setup, self._before, self._has_content = setup, setup, has_content
+        self.comparing, self._who, self._online = Comparing(), "", Online()
+        self.controller, self.axes, self.servo, self.stepper = ControllerPage(), AxesPage(), ServoPage(), StepperPage()
+        self.limits, self.names, self.notes, self.compare = LimitsPage(), NamesPage(), NotesPage(), ComparePage()
+        self.pages: tuple[Page, ...] = (
+            self.controller,
+            self.axes,
+            self.servo,
+            self.stepper,
+            self.limits,
+            self.names,
+            self.notes,
+            self.compare,
+        )
+        self.list, self.stack = QListWidget(), QStackedWidget()
+        self.file, self.problem = QLabel(), quiet("warning")
+        self.file_buttons = {
+            "New": (QPushButton("New"), self.new_wanted),
+            "Open": (QPushButton("Open…"), self.open_wanted),
+            "Save": (QPushButton("Save"), self.save_wanted),
+            "Save as": (QPushButton("Save as…"), self.save_as_wanted),
+        }
+        self.read, self.burn = QPushButton("Setup from controller"), QPushButton("Write to EEPROM…")
+        self.done_button, self.cancel = QPushButton("Done"), QPushButton("Cancel")
+        self.question = self._make_question()
+        self._lay_out()
+        self._join()
+        self.show_file("not saved in a file", False)
+        self.show_online(self._online)
+        self._show()
+
+    # ---- what is shown
+
+    def show_file(self, name: str, unsaved: bool) -> None:
+        """The file of this setup."""
+        title = f"Setup – {name}{'*' if unsaved else ''}"
+        if title != self.windowTitle():
+            self.setWindowTitle(title)
+            self.file.setText(f"{name}{' (changed)' if unsaved else ''}")
+
+    def show_online(self, online: Online) -> None:
+        """What a connected controller allows."""
+        if online == self._online and self.read.toolTip():
+            return
+        self._online = online
+        for button, reason, words in (
+            (self.read, online.read, "Reads what the controller holds and marks what differs; changes nothing there"),
+            (self.burn, online.burn, "Keeps in the EEPROM what the controller holds; you are asked before"),
+        ):
+            button.setEnabled(not reason)
+            button.setToolTip(reason or words)
+        self._show()
+
+    def show_setup(self, setup: Setup) -> None:
+        """Another setup, from a file or a new one."""
+        self.comparing = self.comparing.edited(self.setup, setup) if self.comparing.readings else self.comparing
+        self.setup = setup
+        self._show()
+        self.changed.emit()
+
+    def show_readings(self, readings: Readings, who: str) -> None:
+        """What the controller holds was read just now."""
+        self.comparing, self._who = Comparing.of(self.setup, readings), who
+        self._show()
+        self.list.setCurrentRow(self.pages.index(self.compare))
+
+    def forget_readings(self) -> None:
+        """Another controller is connected, or none: what was read says nothing any more."""
+        if self.comparing.readings:
+            self.comparing, self._who = Comparing(), ""
+            self._show()
+
+    def open_page(self, page: Page) -> None:
+        """One of the pages in front."""
+        self.list.setCurrentRow(self.pages.index(page))
+
+    def problems(self) -> list[str]:
+        """What has to be put right before it can be taken over, one sentence each."""
+        serial, plate = serial_problem(self.setup.serial_number), plate_problem(self.setup.plate)
+        found = [each.message for each in setup_problems(self.setup) if each.severity == "error"]
+        return [*(words for words in (serial, plate) if words), *found]
+
+    def rescaled(self) -> str:
+        """Letters of the axes whose scale differs from before."""
+        return "".join(
+            letter for letter in self.setup.letters if self.setup.axis(letter).scale != self._before.axis(letter).scale
+        )
+
+    # ---- what a person does
+
+    def _edited(self, setup: Setup) -> None:
+        self.show_setup(setup)
+
+    def _choose(self, key: Key, choice: Choice) -> None:
+        self.comparing, self.setup = self.comparing.choose(self.setup, key, choice)
+        self._show()
+        self.changed.emit()
+
+    def _choose_all(self, choice: Choice) -> None:
+        self.comparing, self.setup = self.comparing.choose_all(self.setup, choice)
+        self._show()
+        self.changed.emit()
+
+    def _finish(self) -> None:
+        if self._has_content and self.rescaled():
+            self.question.show()
+            self.keep_units.setFocus()
+        else:
+            self._keep("units")
+
+    def _keep(self, what: str) -> None:
+        self.finished_setup.emit(self.setup, what, self.comparing.to_send(self.setup))
+
+    # ---- inside
+
+    def _show(self) -> None:
+        shown = Shown(self.setup, self.comparing.readings, self._online.serial)
+        for page in self.pages:
+            page.show_setup(shown)
+        if self.comparing.readings:
+            self.compare.show_rows(self.comparing.rows(self.setup), self.comparing.choices, self._who)
+        self._mark_pages()
+        found = self.problems()
+        more = f" ({len(found) - 1} more)" if len(found) > 1 else ""
+        say(self.problem, f"{found[0]}{more}" if found else "")
+        self.done_button.setEnabled(not found)
+        sends = len(self.comparing.to_send(self.setup))
+        tip = f"Takes the setup over and sends {sends} value{'s' * (sends != 1)}" if sends else "Takes the setup over"
+        self.done_button.setToolTip(found[0] if found else f"{tip} (one step back with Undo)")
+        self.question.hide()
+
+    def _mark_pages(self) -> None:
+        """Behind the page of the controller's values: how many differ."""
+        count = len(self.comparing.rows(self.setup)) if self.comparing.readings else 0
+        item = self.list.item(self.pages.index(self.compare))
+        item.setText(f"{self.compare.title} ({count})" if count else self.compare.title)
+
+    def _join(self) -> None:
+        for page in self.pages:
+            page.edited.connect(self._edited)
+        self.compare.chosen.connect(self._choose)
+        self.compare.all_chosen.connect(self._choose_all)
+        self.list.currentRowChanged.connect(self.stack.setCurrentIndex)
+        for button, signal in self.file_buttons.values():
+            button.clicked.connect(signal)
+        self.read.clicked.connect(self.read_wanted)
+        self.burn.clicked.connect(self.burn_wanted)
+        self.cancel.clicked.connect(self.reject)
+        self.done_button.clicked.connect(self._finish)
+
+    def _make_question(self) -> QFrame:
+        frame = QFrame()
+        frame.setProperty("role", "card")
+        words = quiet("")
+        words.setText(
+            "The scale has changed and the program already holds positions. What should stay the same?\n"
+            "In units: 10 in stays 10 in, other counts are sent. "
+            "In counts: the machine moves as before, the numbers change."
+        )
+        self.keep_units, self.keep_counts = QPushButton("Keep the numbers in units"), QPushButton("Keep the counts")
+        self.keep_units.clicked.connect(lambda: self._keep("units"))
+        self.keep_counts.clicked.connect(lambda: self._keep("counts"))
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        buttons.addWidget(self.keep_counts)
+        buttons.addWidget(self.keep_units)
+        column = QVBoxLayout(frame)
+        column.addWidget(words)
+        column.addLayout(buttons)
+        frame.hide()
+        return frame
+
+    def _lay_out(self) -> None:
+        self.file.setProperty("role", "quiet")
+        self.file.setAccessibleName("Setup file")
+        self.done_button.setProperty("role", "primary")
+        self.done_button.setDefault(True)
+        self.list.setAccessibleName("Pages of the setup")
+        self.list.setFixedWidth(176)
+        self.list.setStyleSheet("QListWidget::item { padding-left: 8px; }")
+        for page in self.pages:
+            item = QListWidgetItem(page.title)
+            item.setSizeHint(QSize(0, look().control + 4))
+            self.list.addItem(item)
+            self.stack.addWidget(page)
+        self.list.setCurrentRow(0)
+        head = QHBoxLayout()
+        for button, _ in self.file_buttons.values():
+            button.setAutoDefault(False)
+            head.addWidget(button)
+        head.addSpacing(8)
+        head.addWidget(self.file, 1)
+        middle = QHBoxLayout()
+        middle.setSpacing(24)
+        middle.addWidget(self.list)
+        middle.addWidget(self.stack, 1)
+        foot = QHBoxLayout()
+        for button in (self.read, self.burn):
+            button.setAutoDefault(False)
+            foot.addWidget(button)
+        foot.addStretch(1)
+        foot.addWidget(self.cancel)
+        foot.addWidget(self.done_button)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(24, 16, 24, 16)
+        column.setSpacing(16)
+        column.addLayout(head)
+        column.addLayout(middle, 1)
+        column.addWidget(self.problem)
+        column.addWidget(self.question)
+        column.addLayout(foot)
+        self.resize(1080, 740)
