@@ -22,7 +22,9 @@ from codegen.expressions import (
     Operand,
     String,
     Variable,
+    children,
     parse_expression,
+    write,
 )
 from codegen.numbers import plain
 
@@ -35,8 +37,23 @@ class Unknown(Exception):
     """A formula that has no value: one sentence."""
 
 
+LIVE_FUNCTIONS = ("AN", "COM", "IN", "OUT")  # worked out by the controller alone
+
+
+def leaves(tree: Expression) -> tuple[Expression, ...]:
+    """The parts whose value only the running controller knows, each once."""
+    if isinstance(tree, Variable | Element | Operand | Keyword):
+        return (tree,)
+    if isinstance(tree, Function) and tree.name in LIVE_FUNCTIONS:
+        return (tree,)
+    return tuple(dict.fromkeys(leaf for child in children(tree) for leaf in leaves(child)))
+
+
 def evaluate(tree: Expression, values: Mapping[str, Fraction]) -> Fraction:
-    """The value of a tree; comparisons give 1 or 0."""
+    """The value of a tree, with the values of its leaves by their spelling; comparisons give 1 or 0."""
+    joins = isinstance(tree, Number | Group | Negative | Binary)
+    if not joins and values and (known := values.get(write(tree))) is not None:
+        return known
     match tree:
         case Number(value=value):
             return value

@@ -18,14 +18,17 @@ from PySide6.QtWidgets import (
 )
 
 from codegen import fields
+from widgets.form.builder import ExpressionBuilder
 from widgets.form.buttons import Buttons, row_of
-from widgets.form.expression_menu import ExpressionMenu
 from widgets.form.grid_editor import GridEditor
+from widgets.form.judge import Judge
 from widgets.form.offers import Offers
+from widgets.parts.icons import icon
 from widgets.parts.look import look
 
 LEAVE = "leave as it is"
 NUMBER_WIDTH = 144
+BUILD = "Build an expression: functions, variables, live values (Ctrl+Space)"
 FREE = 16_777_215  # no limit, as Qt writes it
 
 
@@ -39,7 +42,7 @@ class Editor(Protocol):
 
 
 class LineEditor(QLineEdit):
-    """One line of text: numbers, expressions, names. Ctrl+Space offers functions, variables and live values."""
+    """One line of text: numbers, expressions, names. Ctrl+Space or the button inside opens the expression builder."""
 
     changed = Signal(object)
 
@@ -53,7 +56,13 @@ class LineEditor(QLineEdit):
         else:
             self.setFixedWidth(NUMBER_WIDTH)
         self.textEdited.connect(lambda text: self.changed.emit(text))
+        self.judge: Callable[[], Judge] | None = None  # what the form says of a text; without it nothing is built
+        self.builder: ExpressionBuilder | None = None
         self.builds = not getattr(field, "literal", False) and not isinstance(field, fields.Text | fields.LabelName)
+        if self.builds and not isinstance(field, fields.ExpressionField):  # that has a button of its own
+            action = self.addAction(icon("function", "quiet"), QLineEdit.ActionPosition.TrailingPosition)
+            action.setToolTip(BUILD)
+            action.triggered.connect(self.build)
 
     def value(self) -> str:
         return self.text()
@@ -63,32 +72,32 @@ class LineEditor(QLineEdit):
             self.setText(value)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Ctrl+Space opens the expression menu."""
+        """Ctrl+Space opens the expression builder."""
         if event.key() == Qt.Key.Key_Space and event.modifiers() == Qt.KeyboardModifier.ControlModifier and self.builds:
             self.build()
             return
         super().keyPressEvent(event)
 
     def show_offers(self, offers: Offers) -> None:
-        """Other names for the expression menu."""
+        """Other names for the expression builder."""
         self.offers = offers
 
     def build(self) -> None:
-        """Offers what an expression is made of; the choice is put in at the cursor."""
-        menu = ExpressionMenu(self.offers, self)
-        menu.chosen.connect(self._put_in)
-        menu.aboutToHide.connect(menu.deleteLater)
-        menu.popup(self.mapToGlobal(self.rect().bottomLeft()))
+        """Opens the builder; what it brings takes the place of the text."""
+        if self.judge is None:
+            return
+        self.builder = ExpressionBuilder(self.offers, self.judge(), self.text(), self.window())
+        self.builder.accepted_text.connect(self._take)
+        self.builder.show()
 
-    def _put_in(self, text: str, back: int) -> None:
-        self.insert(text)
-        self.setCursorPosition(self.cursorPosition() - back)
+    def _take(self, text: str) -> None:
+        self.setText(text)
         self.setFocus()
-        self.changed.emit(self.text())
+        self.changed.emit(text)
 
 
 class ExpressionEditor(QWidget):
-    """A line with a button beside it that offers what expressions are made of."""
+    """A line with a button beside it that opens the expression builder."""
 
     changed = Signal(object)
 
@@ -102,14 +111,14 @@ class ExpressionEditor(QWidget):
         button.setAutoDefault(False)
         button.setMinimumHeight(look().control)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        button.setToolTip("Functions, operators, variables and live values (Ctrl+Space)")
+        button.setToolTip(BUILD)
         button.setAccessibleName("Build an expression")
         button.clicked.connect(self.line.build)
         row_of(self, self.line, button)
         self.line.changed.connect(self.changed)
 
     def show_offers(self, offers: Offers) -> None:
-        """Other names for the expression menu."""
+        """Other names for the expression builder."""
         self.line.show_offers(offers)
 
     def focus_target(self) -> LineEditor:

@@ -13,8 +13,9 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWi
 
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
-from widgets.form.editors import AXIS_EDITORS, EDITORS, choice_list, in_little_room, maker_for
+from widgets.form.editors import AXIS_EDITORS, EDITORS, LineEditor, choice_list, in_little_room, maker_for
 from widgets.form.grid_editor import GridEditor
+from widgets.form.judge import judge_of
 from widgets.form.offers import Offers
 from widgets.form.rows import RowsEditor
 from widgets.parts.look import look
@@ -255,6 +256,9 @@ class FieldsForm(QWidget):
         silent = isinstance(field, SILENT) or isinstance(getattr(field, "of", None), SILENT)
         cell = Cell(editor, words, field.help, wide=wide, speaks=not silent, tight=self.tight, parent=self.inside)
         cell.changed.connect(lambda value: self._changed(name, axis, value))
+        line = getattr(editor, "line", editor)
+        if isinstance(line, LineEditor):
+            line.judge = lambda: judge_of(self.item, name, axis, self.path, self.offers.setup)
         self.cells[name, axis] = cell
         return cell
 

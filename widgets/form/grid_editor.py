@@ -11,7 +11,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from codegen import fields, sheets
-from codegen.numbers import parse_number
+from codegen.numbers import parse_number, plain
 from codegen.sheets import Cells, Sheet
 from codegen.tables import LONGEST, BadTable
 from widgets.form.fill_dialog import FillDialog, Filling
@@ -340,7 +340,7 @@ class GridEditor(QWidget):
 
 
 def _with_place(cells: Cells, row: int, column: int, place: Any) -> Cells:
-    return sheets.with_cell(cells, row, column, sheets.plain(place))
+    return sheets.with_cell(cells, row, column, plain(place))
 
 
 def _told(cells: Cells | BadTable, otherwise: str) -> Cells | BadTable:

@@ -2,22 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
 
 from codegen.document import Document
+from codegen.ingredients import arrays_of
 from codegen.program import labels, variables
 from codegen.setup import Setup
 
 
+class LiveValues(Protocol):
+    """Reads what expressions are made of from the controller, again and again while somebody watches."""
+
+    def watch(self, owner: object, texts: Sequence[str], call: Callable[[Mapping[str, float | str]], None]) -> None:
+        """Calls back with the value of each text, or with why it has none; with nothing while offline."""
+
+    def forget(self, owner: object) -> None:
+        """Nobody watches any more."""
+
+
 @dataclass(frozen=True)
 class Offers:
-    """Setup, labels and variables of one document."""
+    """Setup, labels and names of one document, and the values they have on the controller."""
 
     setup: Setup
     labels: tuple[str, ...] = ()
     variables: tuple[str, ...] = ()
+    arrays: tuple[str, ...] = ()
+    live: LiveValues | None = field(default=None, compare=False)
 
 
-def offers_of(document: Document) -> Offers:
+def offers_of(document: Document, live: LiveValues | None = None) -> Offers:
     """What a document offers to its forms."""
-    return Offers(document.working_setup, labels(document.program), variables(document.program))
+    program = document.program
+    return Offers(document.working_setup, labels(program), variables(program), arrays_of(program), live)

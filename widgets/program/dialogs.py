@@ -67,7 +67,7 @@ class Dialogs(QObject):
     def _show(
         self, instruction: Instruction, *, new: bool, where: str, section: str = "", note: str = ""
     ) -> InstructionDialog:
-        offers = offers_of(self.session.document)
+        offers = offers_of(self.session.document, getattr(self.view, "live", None))
         window = self.view.window()
         dialog = InstructionDialog(instruction, offers, new=new, where=where, section=section, note=note, parent=window)
         self.open.append(dialog)

@@ -14,7 +14,7 @@ from codegen.generate import Listing
 from codegen.instructions import Comment, Instruction, Subroutine, TwoLetterCode
 from codegen.program import Section, Step, end_of, find
 from widgets.form.inspector import Inspector
-from widgets.form.offers import offers_of
+from widgets.form.offers import LiveValues, offers_of
 from widgets.program import clipboard
 from widgets.program.arranging import Arranging
 from widgets.program.code_popup import CodePopup
@@ -67,6 +67,7 @@ class ProgramView(QWidget):
         self.problems = ProblemsPanel()
         self.inspector = Inspector(offers_of(session.document))
         self.dialogs = Dialogs(self, session)
+        self.live: LiveValues | None = None  # reads values for expressions
         self.run = Running(session, self.words, self.tree, self.delegate, self.code)
         self.find_bar = FindBar()
         self.finding = Finding(session, self.words, self.tree, self.delegate, self.find_bar)
@@ -95,7 +96,7 @@ class ProgramView(QWidget):
         self.header.show_program(new.program, _label(listing))
         self.problems.show_problems(new, listing)
         if self.dialogs.open:
-            self.dialogs.show_offers(offers_of(new))
+            self.dialogs.show_offers(offers_of(new, self.live))
         if old is None or old.setup != new.setup:
             self.instructions.show_setup(new.working_setup)
         self.finding.follow()
@@ -355,7 +356,7 @@ class ProgramView(QWidget):
         if one is None or not self.inspector.isVisible():
             self.inspector.show_nothing()
         else:
-            self.inspector.show_step(one, offers_of(self.session.document))
+            self.inspector.show_step(one, offers_of(self.session.document, self.live))
 
     def _selection_changed(self) -> None:
         if self._showing:

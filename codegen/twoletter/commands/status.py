@@ -16,6 +16,7 @@ STATUS: tuple[Row, ...] = (
         reply="PF",
         tells=True,
         operand="axis",
+        operand_help="actual position, in counts",
     ),
     Row(
         name="RP",
@@ -28,6 +29,7 @@ STATUS: tuple[Row, ...] = (
         reply="PF",
         tells=True,
         operand="axis",
+        operand_help="commanded position, in counts",
     ),
     Row(
         name="TD",
@@ -40,6 +42,7 @@ STATUS: tuple[Row, ...] = (
         reply="PF",
         tells=True,
         operand="axis",
+        operand_help="auxiliary encoder, in counts",
     ),
     Row(
         name="TE",
@@ -52,6 +55,7 @@ STATUS: tuple[Row, ...] = (
         reply="PF",
         tells=True,
         operand="axis",
+        operand_help="following error, in counts",
     ),
     Row(
         name="TV",
@@ -64,6 +68,7 @@ STATUS: tuple[Row, ...] = (
         reply="8.0",
         tells=True,
         operand="axis",
+        operand_help="actual speed, in counts/s",
         profile="recall (format)",
     ),
     Row(
@@ -79,6 +84,7 @@ STATUS: tuple[Row, ...] = (
         reply="1.4",
         tells=True,
         operand="axis",
+        operand_help="motor command, in volts",
         confidence="medium",
         profile="recall",
     ),
@@ -95,6 +101,7 @@ STATUS: tuple[Row, ...] = (
         reply="3.0",
         tells=True,
         operand="axis",
+        operand_help="switches, as bits",
     ),
     Row(
         name="RL",
@@ -107,6 +114,7 @@ STATUS: tuple[Row, ...] = (
         reply="PF",
         tells=True,
         operand="axis",
+        operand_help="latched position, in counts",
     ),
     Row(
         name="TB",
