@@ -105,6 +105,7 @@ ROWS: tuple[Row, ...] = (
     Row("terminal", "Terminal", "Machine", "Type commands, see replies", "Alt+2", "terminal", "main", "Terminal"),
     Row("display", "Display", "Machine", "Positions, inputs, outputs and switches", "Alt+3", "display", "main",
         "Display"),
+    Row("jog", "Jog", "Machine", "Move axes by hand", "Alt+6", "jog", "main", "Jog"),
     Row("plane", "X-Y view", "Machine", "The way of two axes from above", "Alt+4", "measure"),
     Row("operator", "Operator terminal", "Machine", "The terminal at port 2 of the controller", "Alt+5", "operator"),
     Row("simulator_panel", "Simulator switches", "Machine", "Flip the simulated machine's switches", "", "simulator"),

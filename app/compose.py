@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 
 from app.actions import MAIN, RUN, Actions
+from app.by_hand import ByHand
 from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
@@ -42,6 +43,7 @@ from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
+from widgets.jog.panel import JogPanel
 from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
 from widgets.plane.panel import PlanePanel
@@ -75,6 +77,7 @@ class Studio(QObject):
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
         self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
+        self.jog = JogPanel(clock=clock)
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.importing = Importing(self.session, self.desk.ask, self.window)
@@ -93,6 +96,9 @@ class Studio(QObject):
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.setup.facts = self.follow.facts
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
+        self.by_hand = ByHand(
+            self.connection, self.session, self.tick, self.jog, self.desk.ask, self.ear.homed_axes, self
+        )
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
         self.panels: tuple[Panel, ...] = (
@@ -100,6 +106,7 @@ class Studio(QObject):
             self.messages,
             self.plane,
             self.keys,
+            self.jog,
             self.terminal,
             self.simulator,
             self.ear,
@@ -134,6 +141,7 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
+            "jog": partial(desk.bring, "Jog"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
@@ -148,6 +156,7 @@ class Studio(QObject):
         window, header = self.window, self.window.header
         window.add("Instructions", self.program.instructions, LEFT)
         window.add("Display", self.display, RIGHT, moves=True)
+        window.add("Jog", self.jog, RIGHT, moves=True)
         window.add("X-Y view", self.plane, RIGHT)
         window.add("Operator terminal", self.keys, RIGHT, moves=True)
         window.add("Simulator", self.simulator, RIGHT, moves=True)

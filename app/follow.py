@@ -168,6 +168,10 @@ class Program(Panel):
     def show_document(self, old: Document | None, new: Document) -> None:
         self._document = new
 
+    def homed_axes(self) -> list[str]:
+        """The axes that are known to be homed."""
+        return [letter for letter, mark in self.homed.marks.items() if mark.homed]
+
     def look(self) -> None:
         """The lines the threads are on, from the newest row."""
         controller = self.controller

@@ -168,7 +168,28 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     rig.type("VP -1911,1911", "CR 1911,180,90", "VE", "BGS")
     stage.until(lambda: rig.simulation.state()["axes"]["Y"]["commanded"] > 7600)
     yield "panel-x-y-view", studio.window
+    yield from _jog(stage)
     yield from _operator(stage)
+
+
+def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """The three pages of the jog panel; on the first an axis is held."""
+    stage.until(lambda: not stage.rig.simulation.state()["axes"]["X"]["moving"])
+    stage.studio.desk.bring("Jog")
+    stage.go(5)
+    panel = stage.studio.jog
+    assert panel.one is not None
+    panel.one.hold_forward.pressed.emit()
+    for _ in range(20):
+        stage.go(1)
+        panel._renew()
+    yield "panel-jog", stage.studio.window
+    panel.one.hold_forward.let_go()
+    stage.go(30)
+    for number, name in ((1, "line"), (2, "arc")):
+        panel.buttons[number].click()
+        stage.go()
+        yield f"panel-jog-{name}", stage.studio.window
 
 
 def _operator(stage: Stage) -> Iterator[tuple[str, QWidget]]:

@@ -1,0 +1,1 @@
+"""Moving a machine by hand."""
