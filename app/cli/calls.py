@@ -21,6 +21,7 @@ DOES = {
     "restore": "app.cli.backup",
     "conform": "app.cli.conforming",
     "ports": "app.cli.ports",
+    "doctor": "app.cli.doctor",
 }
 
 

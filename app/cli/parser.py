@@ -23,6 +23,7 @@ CALLS = (
     "restore",
     "conform",
     "ports",
+    "doctor",
 )
 
 
@@ -137,6 +138,7 @@ def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     controller_option(conform)
     conform.add_argument("--cw", type=int, choices=(1, 2), help="what CW is set to there: lets marks be looked at")
     calls.add_parser("ports", help="serial ports that are there")
+    line_options(calls.add_parser("doctor", help="what is wrong with a connection, in words"), profile=False)
 
 
 def calls_parser() -> Parser:

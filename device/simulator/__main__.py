@@ -15,6 +15,7 @@ from codegen.models import MODELS, Model
 from device.simulator.eeprom import EepromUnreadable, read_eeproms
 from device.simulator.lines import open_line, open_second
 from device.simulator.server import MOST_IN_CHAIN, maker, serve
+from device.simulator.uart_faults import Fault
 
 if TYPE_CHECKING:
     from device.simulator.plant import Plant
@@ -38,6 +39,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--chain", type=int, metavar="N", help="N controllers in a daisy chain")
     parser.add_argument("--port2", metavar="HOST:PORT|pty", help="port 2 as a line of its own")
     parser.add_argument("--profile", type=Path, metavar="PROFILE.toml", help="answers of a real controller")
+    parser.add_argument("--fault", choices=list(Fault), default=Fault.NONE, help="what is wrong with the connection")
     parser.add_argument("--seed", type=int, default=0, help="of the encoder noise")
     parser.add_argument("--control", action="store_true", help="take signal,value and state lines from standard input")
 
@@ -105,7 +107,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (OSError, ValueError) as reason:
         print(f"twoletter: can not listen ({getattr(reason, 'strerror', None) or reason})", file=sys.stderr)
         return 2
-    serve(make, line, second=second, control=options.control)
+    serve(make, line, second=second, control=options.control, fault=Fault(options.fault))
     return 0
 
 

@@ -16,6 +16,7 @@ class Line(Protocol):
 
     address: str
 
+    def host_baud(self) -> int | None: ...
     def watched(self, *, want: bool) -> list[Watched]: ...
     def arrived(self, readable: Sequence[Watched]) -> None: ...
     def read(self, most: int) -> bytes: ...
@@ -34,6 +35,10 @@ class TcpLine:
         self._pending = bytearray()
         name = self._listener.getsockname()
         self.address = f"{name[0]}:{name[1]}"
+
+    def host_baud(self) -> int | None:
+        """A socket has no speed."""
+        return None
 
     def watched(self, *, want: bool) -> list[Watched]:
         """A new client may come at any time; what the present one says only when it is wanted."""

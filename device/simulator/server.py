@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol, TextIO
 
 from device.simulator.lines import wait
 from device.simulator.times import CHARACTER_BITS, TICKS
+from device.simulator.uart_faults import Fault
 
 if TYPE_CHECKING:
     from codegen.models import Model
@@ -78,6 +79,8 @@ class Server:
         wait([(line, most[port] > 0) for port, line in self.lines.items()], self._deadline() - time.monotonic())
         self._catch_up()
         for port, line in self.lines.items():
+            uart = self.simulation.line(port)
+            uart.host_baud = line.host_baud() if uart.fault is Fault.SPEED else None
             data = line.read(most[port]) if most[port] > 0 else b""
             if data:
                 self.simulation.receive(port, data)
@@ -116,10 +119,11 @@ class Server:
         gc.freeze()
 
     def facts(self) -> dict[str, Any]:
-        """Beside the state: the last characters clocked in (`time.monotonic()`, code), and which loop runs."""
+        """Beside the state: the last characters clocked in (`time.monotonic()`, code), CTS, and which loop runs."""
         history = self.simulation.line(1).history
         return {
             "received": [[self._began + (tick - self._first) / TICKS, byte] for tick, byte in history],
+            "clear_to_send": self.simulation.line(1).clear_to_send,
             "compiled": all(motion.compiled for motion in self.simulation.motions),
         }
 
@@ -133,7 +137,7 @@ class Server:
 
 
 class ControlLines:
-    """Lines of standard input: `signal,value` is a stimulus, `state` prints the state as one JSON line."""
+    """Lines of standard input: `signal,value` is a stimulus, `fault,NAME` spoils the connection; `state` tells all."""
 
     def __init__(self, source: TextIO, answers: TextIO) -> None:
         self.ended = False
@@ -158,7 +162,10 @@ class ControlLines:
         elif line:
             signal, _, value = line.partition(",")
             try:
-                simulation.stimulus(signal, value)
+                if signal == "fault":
+                    simulation.line(1).fault = Fault(value)
+                else:
+                    simulation.stimulus(signal, value)
             except (KeyError, ValueError) as reason:
                 print(f"twoletter: {reason.args[0]}", file=sys.stderr, flush=True)
 
@@ -192,7 +199,14 @@ def maker(
     return make
 
 
-def serve(make: Callable[[], Served], line: Line, *, second: Line | None = None, control: bool = False) -> None:
+def serve(
+    make: Callable[[], Served],
+    line: Line,
+    *,
+    second: Line | None = None,
+    control: bool = False,
+    fault: Fault = Fault.NONE,
+) -> None:
     """Announces the lines, makes what is served, and serves it until interrupted or until standard input ends."""
     print(f"listening on {line.address}", flush=True)
     if second is not None:
@@ -202,6 +216,7 @@ def serve(make: Callable[[], Served], line: Line, *, second: Line | None = None,
         from device.simulator.loops import Loading  # heavy, like what `make` loads: the line is announced before
 
         server = Server(make(), line, lines, second)
+        server.simulation.line(1).fault = fault
         loading = Loading(server.use)
         loading.begin()
         try:

@@ -6,6 +6,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from codegen.rates import RATES
+
 if TYPE_CHECKING:
     from device.simulator.lines import Watched
 
@@ -22,6 +24,13 @@ class TerminalLine:
         os.set_blocking(self._own, False)
         self._pending = bytearray()
         self.address = os.ttyname(self._other)
+
+    def host_baud(self) -> int | None:
+        """The speed the host has set its side to; None for one that is not known by name."""
+        import termios
+
+        named = termios.tcgetattr(self._own)[5]
+        return next((rate for rate in RATES if getattr(termios, f"B{rate}") == named), None)
 
     def watched(self, *, want: bool) -> list[Watched]:
         """What can be waited for."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from device.simulator.times import CHARACTER_BITS, TICKS
+from device.simulator.uart_faults import Fault, mistimed, spoilt
 
 NEVER: Final = 1 << 62
 OUTPUT_FIFO: Final = 128  # characters, dmc-1412-1414.txt l.1333
@@ -40,6 +41,9 @@ class Uart:
     last: int = 0  # the character before: ^R makes a command of XOFF
     history: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # tick, character clocked in
 
+    fault: Fault = Fault.NONE  # of the connection
+    host_baud: int | None = None  # the speed the host's port is set to, where that is known
+
     passing: bool = False  # what comes in is also for the next controller of a daisy chain
     passed: bytearray = field(default_factory=bytearray)
 
@@ -47,6 +51,11 @@ class Uart:
 
     def receive(self, data: bytes, now: int) -> None:
         """The host hands characters to the line at tick `now`; its driver sends XON also where CTS holds the rest."""
+        data, back = spoilt(self.fault, data)
+        self.sent += back
+        if self._wrong_speed:
+            assert self.host_baud is not None and self.baud is not None
+            data = mistimed(data, self.host_baud, self.baud)
         if self.held and XON in data:
             self.stopped = False
             data = data.replace(bytes((XON,)), b"", 1)
@@ -58,7 +67,15 @@ class Uart:
         """The characters that have left the port since the last call."""
         data = bytes(self.sent)
         self.sent.clear()
+        if self._wrong_speed:
+            assert self.host_baud is not None and self.baud is not None
+            data = mistimed(data, self.baud, self.host_baud)
         return data
+
+    @property
+    def _wrong_speed(self) -> bool:
+        known = self.baud is not None and self.host_baud is not None
+        return self.fault is Fault.SPEED and known and self.baud != self.host_baud
 
     def set_host_ready(self, ready: bool, now: int) -> None:
         """Raises or drops the line by which the host lets characters come."""
@@ -78,6 +95,8 @@ class Uart:
     @property
     def clear_to_send(self) -> bool:
         """False while the controller asks the host to wait."""
+        if self.fault is Fault.HELD:
+            return False
         return not self.handshake or len(self.buffer) < self.receive_size - HOLD_MARGIN
 
     # ------------------------------------------------------ controller's side

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 Handshake = Literal["none", "rts", "xon", "both"]
 Parity = Literal["none", "even", "odd"]
@@ -61,6 +61,15 @@ class Transport(Protocol):
         ...
 
     def close(self) -> None: ...
+
+
+@runtime_checkable
+class Wired(Protocol):
+    """A line that has handshake wires."""
+
+    def clear_to_send(self) -> bool | None:
+        """Whether the other end lets us send (CTS); None where the port can not tell."""
+        ...
 
 
 def open_transport(address: str, line: LineSettings | None = None) -> Transport:

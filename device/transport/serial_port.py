@@ -78,6 +78,13 @@ class SerialPort:
         except GONE as reason:
             raise TransportLost(f"{self._device} is gone: is the cable still plugged in?") from reason
 
+    def clear_to_send(self) -> bool | None:
+        """CTS; None where there is no such wire (pseudo-terminals)."""
+        try:
+            return bool(self._port.cts)
+        except GONE:
+            return None
+
     def discard_output(self) -> None:
         """Throws it away; also goes on after an XOFF: what is sent next is a stop, and the XON may be lost."""
         with contextlib.suppress(*GONE):
