@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from codegen.twoletter.arguments import LABEL_NAME, READERS, assigned, index_and_numbers
 from codegen.twoletter.braces import local_format
-from codegen.twoletter.commands import COMMANDS, KEYWORDS, LATER
+from codegen.twoletter.commands import COMMANDS, FREE, KEYWORDS, LATER
 from codegen.twoletter.expression import DEEPEST, expression, operand, variable
 from codegen.twoletter.nodes import (
     Assign,
@@ -204,7 +204,7 @@ def _assignment(cursor: Cursor, name: str) -> Statement:
         cursor.advance()
         cursor.advance()
         return _print(cursor, keyword, "not-assignable", 9)
-    if name in COMMANDS:
+    if name in COMMANDS and name not in FREE:
         raise cursor.refuse("assigned-command", 1)
     row = COMMANDS.get(name[:2])
     if row is not None and len(name) == 3 and name[2] in _AXIS_LETTERS and row.takes is Takes.AXIS_NUMBERS:

@@ -8,11 +8,12 @@ from functools import lru_cache
 from codegen.models import Model
 from codegen.twoletter.checks.numbers import number_problems
 from codegen.twoletter.checks.rules import RULES
-from codegen.twoletter.commands import COMMANDS, FUNCTIONS, LATER
+from codegen.twoletter.commands import COMMANDS, FREE, FUNCTIONS, LATER
 from codegen.twoletter.facts import expressions_of, is_host_comment, walk
 from codegen.twoletter.format import format_argument
 from codegen.twoletter.nodes import (
     Argument,
+    Assign,
     Axes,
     Broken,
     Command,
@@ -21,6 +22,7 @@ from codegen.twoletter.nodes import (
     Format,
     Function,
     Operand,
+    Print,
     SegmentSpeed,
     Span,
     Statement,
@@ -41,6 +43,7 @@ def line_problems(text: str, model: Model) -> tuple[Problem, ...]:
     for statement in line.statements:
         problems += refused(text, statement)
         problems += known_values(statement, model)
+        problems += assigned_command(statement, model)
         if isinstance(statement, Command):
             row = COMMANDS[statement.name]
             problems += known_command(statement, row, model)
@@ -74,6 +77,15 @@ def refused(text: str, statement: Statement) -> Iterator[Problem]:
     yield RULES[statement.rule].problem(
         0, place.start, place.end, statement.code, text=spot, where=LATER.get(spot, "later families")
     )
+
+
+def assigned_command(statement: Statement, model: Model) -> Iterator[Problem]:
+    """`VS=5` where VS is a command of this controller; where it is none it is a variable (l.3245)."""
+    if not isinstance(statement, Assign | Print) or not isinstance(statement.target, Variable):
+        return
+    name, span = statement.target.name, statement.target.span
+    if name in FREE and COMMANDS[name].known_to(model):
+        yield RULES["assigned-command"].problem(0, span.start, span.end, 1, text=name)
 
 
 def known_command(command: Command, row: Row, model: Model) -> Iterator[Problem]:

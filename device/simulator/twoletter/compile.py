@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
+from codegen.twoletter.commands import FREE
 from codegen.twoletter.evaluate import compile_expression
 from codegen.twoletter.nodes import (
     Assign,
@@ -102,6 +103,8 @@ def compile_statement(statement: Statement, following: int, unit: Unit, code: Co
         return _refuse(1)  # the host's comments mean nothing to a controller
     if isinstance(statement, Command):
         return command_op(statement, following, unit, code, from_port=from_port)
+    if isinstance(statement, Assign | Print) and _is_command(statement.target, unit):
+        return _refuse(1)
     if isinstance(statement, Assign):
         return _assign(statement, following, unit)
     if isinstance(statement, Print):
@@ -109,6 +112,11 @@ def compile_statement(statement: Statement, following: int, unit: Unit, code: Co
     if isinstance(statement, Label) and from_port:
         return _refuse(1)
     return lambda strand: following
+
+
+def _is_command(target: object, unit: Unit) -> bool:
+    """VS= where VS is a command of this controller; it is a variable where there is none (dmc-1412-1414.txt l.3245)."""
+    return isinstance(target, Variable) and target.name in FREE and unit.rows[target.name].known_to(unit.model)
 
 
 def _refuse(code: int) -> Op:

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from codegen.models import model
+from codegen.twoletter.check import check
 from codegen.twoletter.fixed import ONE
 from codegen.twoletter.nodes import (
     Assign,
@@ -280,3 +282,11 @@ def test_monstrous_lines_do_no_harm(text: str) -> None:
 
 def test_a_long_comment_of_the_host_is_no_problem() -> None:
     assert one("REM " + "x" * 5000) == Comment("REM", "x" * 5000)
+
+
+@pytest.mark.parametrize(("name", "free"), [("dmc1412", True), ("dmc1414", True), ("ssc2", False), ("ssc4", False)])
+def test_a_name_that_is_a_command_of_other_controllers(name: str, free: bool) -> None:
+    # dmc-1412-1414.txt l.3245 assigns VS*2000 to SP: the DMC-141x has no VS, so it is a variable there
+    source = "#A\nVS=3;SP VS*2000;VS=\nEN"
+    found = [problem.rule for problem in check(source, model(name)) if problem.severity == "error"]
+    assert (found == []) if free else ("assigned-command" in found)
