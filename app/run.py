@@ -68,6 +68,7 @@ class Run(QObject):
         self.doing = ""
         self._now = now
         self.before: Before = _at_once
+        self._under_way: Future[Any] | None = None
         self._last: Sent | None = None  # under way, or sent last, of the program that is open
         self._sent: Sent | None = None  # verified
         self._known: tuple[object, Held] | None = None
@@ -210,7 +211,7 @@ class Run(QObject):
         if not self._still(held, "Not burned"):
             return
         self.doing = "Burning: leave the power on"
-        future = self._connection.controller.burn_program()
+        self._under_way = future = self._connection.controller.burn_program()
         self._then(future, self._burned, "It is not known whether the program was burned: ")
 
     def _still(self, held: Held, what: str) -> bool:
@@ -233,7 +234,9 @@ class Run(QObject):
 
     def _executed(self, future: Future[Any]) -> None:
         reply = future.result()
-        self.said.emit("The program was started." if reply.accepted else f"The controller refused to run it: {reply.reason}")
+        self.said.emit(
+            "The program was started." if reply.accepted else f"The controller refused to run it: {reply.reason}"
+        )
 
     def _downloaded(self, future: Future[Any], listing: Listing, sent: Sent, then: Callable[[], None] | None) -> None:
         done = future.result()
@@ -252,7 +255,7 @@ class Run(QObject):
         failed: Callable[[Future[Any]], None] | None = None,
     ) -> None:
         """Something with the controller's memory is under way; a failure is said unless it is taken care of."""
-        self.job, self.doing = job, doing
+        self.job, self.doing, self._under_way = job, doing, job.future
         self._then(job.future, finished, failed=failed)
 
     def _forget_open(self) -> None:
@@ -268,7 +271,8 @@ class Run(QObject):
         failed: Callable[[Future[Any]], None] | None = None,
     ) -> None:
         def done(future: Future[Any]) -> None:
-            self.job, self.doing = None, ""
+            if future is self._under_way:  # a halt, for instance, ends no download
+                self.job, self.doing, self._under_way = None, "", None
             failure = failure_of(future)
             if failure and failed is not None:
                 failed(future)

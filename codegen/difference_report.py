@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from codegen.difference import Difference, Lines, differences
 from codegen.difference_values import ValueDifference, Values, value_differences
 from codegen.setup import Setup
+from codegen.twoletter.slow_mark import FULL
 
 
 @dc.dataclass(frozen=True)
@@ -25,12 +26,12 @@ class Burned:
 
 @dc.dataclass(frozen=True)
 class Held:
-    """What the controller holds, as it was read; `when` says at what time."""
+    """What the controller holds, as it was read."""
 
     program: Lines | None = None
     parameters: Values | None = None
     variables: Mapping[str, int] | None = None
-    when: str = ""
+    percent: int = FULL  # of the speed that was written
 
 
 @dc.dataclass(frozen=True)
@@ -71,6 +72,8 @@ def _controller(file: Lines, held: Held, found: tuple[Difference, ...]) -> str:
     if not held.program:
         return "There is no program in the controller."
     count = sum(1 for each in found if each.same(0, 1) is False)
+    if held.percent < FULL:
+        return f"The controller holds a program slowed to {held.percent} %: it differs in {places(count)}."
     if not count:
         return f"The controller holds exactly the open program ({len(file)} lines)."
     return f"The controller's program differs from the open one in {places(count)}."

@@ -55,9 +55,10 @@ def trigger(stage: Stage, name: str) -> None:
 def test_download_sends_the_listing_shows_progress_and_says_it_was_verified(stage: Stage) -> None:
     rig = same_model(stage)
     trigger(stage, "download")
-    progress, job = stage.studio.window.status.progress, stage.studio.run.job
-    assert job is not None
+    progress = stage.studio.window.status.progress
     stage.until(lambda: "sending" in progress.words.text() and progress.bar.value() > 0)
+    job = stage.studio.run.job
+    assert job is not None
     assert progress.isVisible()
     assert progress.bar.value() == round(1000 * job.done / job.total) < 1000
     assert "Downloading" in stage.studio.actions["download"].statusTip()
@@ -210,7 +211,7 @@ def test_burn_says_what_the_next_power_up_will_do_and_waits_for_the_answer(stage
     stage.go(30)
     assert rig.sent("BP") == []
     answer(stage, "Burn")
-    assert "Burning" in stage.studio.window.status.progress.words.text()
+    stage.until(lambda: "Burning" in stage.studio.window.status.progress.words.text())
     idle(stage)
     assert rig.sent("BP") == ["BP"]
     rig.simulation.stimulus("reset", 0)
@@ -310,6 +311,7 @@ def test_a_burn_without_an_answer_is_not_known(stage: Stage) -> None:
     stage.download()
     trigger(stage, "burn")
     answer(stage, "Burn")
+    stage.until(lambda: "Burning" in stage.studio.window.status.progress.words.text())
     rig.cut()
     idle(stage)
     assert "It is not known whether the program was burned" in " ".join(stage.studio.messages.texts())

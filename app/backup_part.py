@@ -1,0 +1,51 @@
+"""Prove it, back-up and what is known of the EEPROM: made and joined here, handed to the studio as one part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from app.backup_before import Keeping
+from app.backup_compare import Comparing
+from app.backup_eeprom import Eeprom
+from app.backups import Backups
+from app.connection import Connection
+from app.facts import Facts
+from app.run import Ask, Run
+from app.session import Session
+
+
+class BackupPart(QObject):
+    """`look` is called with each tick."""
+
+    said = Signal(str)
+
+    def __init__(
+        self,
+        connection: Connection,
+        run: Run,
+        session: Session,
+        ask: Ask,
+        data: Path,
+        window: QWidget,
+        now: Callable[[], datetime] = datetime.now,
+    ) -> None:
+        super().__init__(window)
+        self._run = run
+        self.keeping = Keeping(connection, run, ask, lambda: session.document.setup, data, now, self)
+        self.eeprom = Eeprom(connection, run, session, data, now, self)
+        self.backups = Backups(connection, run, self.keeping, ask, window)
+        self.comparing = Comparing(connection, run, session, self.eeprom, window, now)
+        run.before = self.keeping.before
+        for part in (self.keeping, self.eeprom, self.backups):
+            part.said.connect(self.said)
+
+    def look(self, facts: Facts) -> None:
+        """What was typed, what is under way, what is possible."""
+        self.eeprom.look()
+        self.backups.look(facts)
+        self.comparing.look(facts)

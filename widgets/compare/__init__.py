@@ -1,0 +1,1 @@
+"""File, controller and EEPROM beside each other."""
