@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from codegen.fields import Dimension
-from codegen.numbers import parse_number
+from codegen.numbers import parse_number, shown
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse
@@ -86,18 +86,28 @@ class Plan:
             if self.absolute or letter in places.commanded
         }
 
-    def passes(self, places: Places) -> str:
-        """Which limit the move passes on its way or at its end, as a sentence, or nothing."""
+    def passes(self, places: Places, setup: Setup | None = None) -> str:
+        """Which limit the move passes on its way or at its end, as a sentence, or nothing; in the setup's units."""
         for letter, end in self.ghost(places).items():
             start = places.commanded.get(letter, end)
             low, high = self.swing.get(letter, (0, 0))
             lowest, highest = min(start + low, start, end), max(start + high, start, end)
             forward, reverse = places.forward.get(letter), places.reverse.get(letter)
             if forward is not None and highest > max(forward, start):
-                return f"Axis {letter} would come to {highest} counts and passes its forward limit {forward}."
+                ends, limit = told(highest, letter, setup), told(forward, letter, setup)
+                return f"Axis {letter} would come to {ends} and passes its forward limit, {limit}."
             if reverse is not None and lowest < min(reverse, start):
-                return f"Axis {letter} would come to {lowest} counts and passes its reverse limit {reverse}."
+                ends, limit = told(lowest, letter, setup), told(reverse, letter, setup)
+                return f"Axis {letter} would come to {ends} and passes its reverse limit, {limit}."
         return ""
+
+
+def told(counts: int, letter: str, setup: Setup | None) -> str:
+    """A place in the unit of its axis; in counts where no setup is known."""
+    if setup is None:
+        return f"{counts} counts"
+    number = setup.from_counts(Dimension.POSITION, letter, counts)
+    return f"{shown(number)} {setup.unit_text(Dimension.POSITION, letter)}"
 
 
 def by(axis: str, counts: int, speed: int, acceleration: int, deceleration: int) -> Plan:

@@ -26,6 +26,14 @@ LOOK_S = 0.02  # between two looks whether a move has ended
 LINE_S = 0.11  # the slowest exchange of a lengthening; on a slower line the move would end before it is lengthened
 EXCHANGE = 82  # characters of it, there and back
 REPLY = 18  # characters of a reading at least
+AT_TARGET = 1  # stop code of a move that came to its end
+OUT_OF_RANGE = 6  # also of a target beyond FL or BL, on controllers that refuse it (dmc-1412-1414.txt l.4137)
+LIMIT_NEAR = "its software limit (FL, BL) is near; move on by increments."
+START_STEPS = {
+    OUT_OF_RANGE: f"A number is out of range, or {LIMIT_NEAR}",
+    20: "Switch the motor on (SH) first.",
+    22: "Move away from the limit switch, in the other direction.",
+}
 COUNTS, FLAG, CODE = Shape(10, 0), Shape(1, 0), Shape(3, 0)
 
 
@@ -76,9 +84,13 @@ class Exchange:
 
     def why(self) -> Steps[str]:
         """The error code that the last refusal left, in words."""
-        answer = yield from fence(self.nonces)
-        code = int(answer.values[0]) if answer.kind is Kind.VALUES else 0
+        code = yield from self.code()
         return f"error {code}, {ERROR_TEXTS.get(code, 'unknown error')}" if code else "the controller did not take it"
+
+    def code(self) -> Steps[int]:
+        """The error code that the last refusal left; 0 where it is not told."""
+        answer = yield from fence(self.nonces)
+        return int(answer.values[0]) if answer.kind is Kind.VALUES else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +137,7 @@ class Lease:
     _place: int = 0  # commanded position when it was read last
     _seen: float = 0.0
     _velocity: float = 0.0  # measured, counts/s
+    _reason: str = ""  # why it can not be lengthened
     _former: tuple[int, ...] = field(default=())
 
     # ------------------------------------------------------- for every thread
@@ -233,9 +246,12 @@ class Lease:
     def _accepted(self, line: str) -> Steps[None]:
         answer = yield from self.exchange.prove(line)
         if answer.kind is not Kind.ACCEPTED:
-            why = yield from self.exchange.why()
+            code = yield from self.exchange.code()
             yield from self._stop()
-            raise LinkError(f"Axis {self.axis} did not start: {why}. Is the motor on and the way free?")
+            text = (
+                f"error {code}, {ERROR_TEXTS.get(code, 'unknown error')}. {START_STEPS.get(code, 'Is the way free?')}"
+            )
+            raise LinkError(f"Axis {self.axis} did not start: {text}")
 
     def _keep_ahead(self) -> Steps[str]:
         """Lengthens the move while held; ends with nothing, or with why the axis ended by itself."""
@@ -284,10 +300,12 @@ class Lease:
         return tuple(values)
 
     def _not_lengthened(self, answer: Answer) -> Steps[bool]:
-        """Refused: the axis was stopped by something else. No answer: it ends by itself, and is told to."""
+        """Refused: a limit is near, or the axis was stopped by something else. No answer: it is told to end."""
         if "?" not in answer.text:
             yield from self._stop()
             raise LinkError(f"Axis {self.axis} was stopped: the controller did not answer while it was held.")
+        if (yield from self.exchange.code()) == OUT_OF_RANGE:  # it runs to the end that was accepted
+            self._reason = f"Axis {self.axis}: {LIMIT_NEAR}"
         return False
 
     def _saw(self, place: int) -> None:
@@ -308,8 +326,22 @@ class Lease:
         return ""
 
     def _by_itself(self) -> Steps[str]:
-        values = yield from self.exchange.read((f"_SC{self.axis}", CODE))
-        return ended(self.axis, int(values[0])) if values else f"Axis {self.axis} stopped."
+        if self._reason:
+            return self._reason
+        forward = self.speed > 0
+        switch, limit = ("_LF", "_FL") if forward else ("_LR", "_BL")
+        values = yield from self.exchange.read(
+            (f"_SC{self.axis}", CODE), (f"{switch}{self.axis}", FLAG), (f"{limit}{self.axis}", COUNTS)
+        )
+        if values is None:
+            return f"Axis {self.axis} stopped."
+        code, free, furthest = (int(value) for value in values)
+        if code != AT_TARGET:
+            return ended(self.axis, code)
+        beyond = self._place >= furthest if forward else self._place <= furthest
+        if beyond or not free:  # an IP 0 that met the standing axis has overwritten the code
+            return f"Axis {self.axis} stands at its {'forward' if forward else 'reverse'} limit."
+        return f"Axis {self.axis} was stopped by something else."
 
     def _stop(self) -> Steps[None]:
         for _ in range(STOP_TRIES):

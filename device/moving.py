@@ -31,7 +31,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from codegen.fields import Dimension
-from device.jog import Places, Plan, axes_driven
+from device.jog import Places, Plan, axes_driven, told
 from device.lease import CODE, COUNTS, EXCHANGE, FLAG, LINE_S, LOOK_S, Exchange, Lease, Ran, StopNeeded, ended
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Wait
 from device.wire import Kind, Shape
@@ -341,11 +341,11 @@ class Motion:
         if not confirmed:
             unknown = [letter for letter in plan.axes if plan.absolute and letter not in homed]
             if unknown:
+                place = told(plan.ghost(places)[unknown[0]], unknown[0], self.setup)
                 raise NeedsConfirmation(
-                    f"Axis {unknown[0]} was not seen homed: {plan.ghost(places)[unknown[0]]} counts may be anywhere. "
-                    "Move there all the same?"
+                    f"Axis {unknown[0]} was not seen homed: {place} may be anywhere. Move there all the same?"
                 )
-            if passes := plan.passes(places):
+            if passes := plan.passes(places, self.setup):
                 raise NeedsConfirmation(f"{passes} Move all the same?")
         return (yield from going.steps())
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from enum import Enum
 from typing import Any, Final, TypeVar
 
 Kind = TypeVar("Kind")
@@ -17,7 +18,7 @@ def clone(value: Kind) -> Kind:
 
 def _clone(value: Any) -> Any:
     kind = type(value)
-    if kind in FIXED:
+    if kind in FIXED or isinstance(value, Enum):
         return value
     if kind is list or kind is deque:
         fixed = not value or type(value[0]) in FIXED

@@ -54,7 +54,9 @@ def test_a_place_asks_for_homed() -> None:
     assert go(bench, jog.to("X", -700, 20_000, RAMP, RAMP), confirmed=True).places == {"X": -700}
 
 
-@pytest.mark.parametrize(("counts", "word"), [(12_000, "forward limit 10000"), (-600, "reverse limit -500")])
+@pytest.mark.parametrize(
+    ("counts", "word"), [(12_000, "forward limit, 10000 counts"), (-600, "reverse limit, -500 counts")]
+)
 def test_a_limit_is_said_before_the_start(counts: int, word: str) -> None:
     bench = bench_on("ssc2", "FL 10000;BL -500")
     with pytest.raises(NeedsConfirmation, match=word):
@@ -67,7 +69,7 @@ def test_the_limits_of_the_setup_count_too() -> None:
     setup = Setup(model="ssc2").with_axis("X", axis)
     bench = bench_on("ssc2", "FL 10000")
     bench.controller.motion.setup = setup
-    with pytest.raises(NeedsConfirmation, match="forward limit 2000"):
+    with pytest.raises(NeedsConfirmation, match=r"would come to 20\.01 mm and passes its forward limit, 20 mm"):
         go(bench, jog.by("X", 2001, 10_000, RAMP, RAMP))
     assert go(bench, jog.by("X", 2000, 10_000, RAMP, RAMP)).places == {"X": 2000}
     number = parse_number("150")

@@ -132,14 +132,16 @@ def test_what_was_stopped_by_something_else_is_not_started_again() -> None:
     before = hold.place
     hold.keep(0.5)
     assert hold.place == pytest.approx(before, abs=SPEED * 0.02)
-    assert "stop command (ST)" in hold.bench.result(hold.future).sentence
+    sentence = hold.bench.result(hold.future).sentence
+    assert "stop command (ST)" in sentence or "by something else" in sentence
 
 
 def test_a_limit_switch_ends_it_and_is_said() -> None:
     hold = Hold().keep(0.5)
     hold.bench.simulation.stimulus("fls_x", 0)
     hold.keep(0.6)
-    assert "FWD limit switch" in hold.bench.result(hold.future).sentence
+    sentence = hold.bench.result(hold.future).sentence
+    assert "FWD limit switch" in sentence or "forward limit" in sentence
     assert hold.bench.still()
 
 
@@ -179,6 +181,21 @@ def test_a_blocked_way_is_said() -> None:
     future = bench.controller.motion.hold("X", SPEED, ACCELERATION, ACCELERATION)
     with pytest.raises(LinkError, match="Axis X did not start: error 22"):
         bench.result(future)
+
+
+@pytest.mark.parametrize("beyond", ["refused", "accepted"])
+def test_a_software_limit_ends_it_with_its_name(beyond: str) -> None:
+    """Whether a target beyond FL is refused (dmc-1412-1414.txt l.4135) or stopped at: said, and never passed."""
+    hold = Hold()
+    setting = hold.bench.simulation.unit.profile
+    assert hasattr(setting, "target_beyond_limit")
+    choices = {"refused": setting.target_beyond_limit, "accepted": "not refused"}
+    hold.bench.simulation.unit.profile = type(setting)(target_beyond_limit=choices[beyond])
+    hold.bench.simulation.receive(1, b"FL 30000\r")
+    hold.keep(4.0)
+    assert hold.bench.still()
+    assert hold.place <= 30_000 + STOPPING
+    assert "limit" in hold.bench.result(hold.future).sentence
 
 
 def test_only_one_axis_is_held_at_a_time() -> None:
