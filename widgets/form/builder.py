@@ -147,12 +147,13 @@ class ExpressionBuilder(QDialog):
         self.about.setText(what.help or what.meaning if isinstance(what, Ingredient) else "")
 
     def _filter(self, text: str) -> None:
-        """Every word must be in the meaning, the spelling, the help or the group."""
+        """Every word must be in the meaning, the spelling or the group; where none is found, in the help."""
         words = text.lower().split()
+        everything = [group.child(place) for group in self._groups() for place in range(group.childCount())]
+        deep = not any(self._matches(item, words, deep=False) for item in everything)
         first: QTreeWidgetItem | None = None
-        for number in range(self.tree.topLevelItemCount()):
-            group = self.tree.topLevelItem(number)
-            found = [self._matches(group.child(place), words) for place in range(group.childCount())]
+        for group in self._groups():
+            found = [self._matches(group.child(place), words, deep=deep) for place in range(group.childCount())]
             for place, shown_ in enumerate(found):
                 group.child(place).setHidden(not shown_)
                 first = first or (group.child(place) if shown_ and words else None)
@@ -161,10 +162,14 @@ class ExpressionBuilder(QDialog):
         if first is not None:
             self.tree.setCurrentItem(first)
 
+    def _groups(self) -> list[QTreeWidgetItem]:
+        found = (self.tree.topLevelItem(number) for number in range(self.tree.topLevelItemCount()))
+        return [group for group in found if group is not None]
+
     @staticmethod
-    def _matches(item: QTreeWidgetItem, words: list[str]) -> bool:
+    def _matches(item: QTreeWidgetItem, words: list[str], *, deep: bool) -> bool:
         what: Ingredient = item.data(0, WHAT)
-        everything = f"{what.group} {what.meaning} {what.text} {what.help}".lower()
+        everything = f"{what.group} {what.meaning} {what.text} {what.help if deep else ''}".lower()
         alone = set(re.findall(r"\w+", everything))  # a single letter is an axis
         return all(word in (alone if len(word) == 1 and word.isalpha() else everything) for word in words)
 
@@ -210,7 +215,7 @@ class ExpressionBuilder(QDialog):
         for name in wanted:
             line = _line(f"Assumed value of {name}")
             line.setText(self.kept.get(name, ""))
-            line.setPlaceholderText("assumed value")
+            line.setPlaceholderText("assumed value, raw" if name.startswith("_") else "assumed value")
             line.textEdited.connect(self._show_value)
             self.assumed[name] = line
             self.rows.addRow(f"{name} =", line)

@@ -44,7 +44,7 @@ class CurvePicture(Canvas):
         self.held: tuple[int, int] | None = None  # which course, which point
         self._spans: tuple[tuple[float, float], ...] = ((0.0, 1.0),) * 3
         self._text = ""
-        self.setMinimumSize(300, 290)
+        self.setMinimumSize(300, 304)
 
     # ---- what it is about
 
@@ -103,14 +103,14 @@ class CurvePicture(Canvas):
     # ---- where things are
 
     def _caption(self) -> int:
-        return 2 * self.fontMetrics().height() + 6
+        return 3 * self.fontMetrics().height() + 4
 
     def _lane(self, lane: int) -> QRectF:
         """The room of a lane's curve."""
         whole = self.height() - self._caption()
         top = sum(PARTS[:lane]) * whole
         above = self.fontMetrics().height() + 1  # the name of the lane
-        return QRectF(LEFT, top + above, self.width() - LEFT - RIGHT, PARTS[lane] * whole - above - 7)
+        return QRectF(LEFT, top + above + 2, self.width() - LEFT - RIGHT, PARTS[lane] * whole - above - 9)
 
     def _at(self, lane: int) -> Callable[[float, float], QPointF]:
         """From values to the screen; only the length is zoomed."""

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QListWidget,
     QPlainTextEdit,
+    QToolButton,
     QWidget,
 )
 
@@ -78,12 +79,16 @@ def _outside(widget: QWidget, dialog: QWidget) -> Iterator[str]:
 
 
 def _pressed(widget: QWidget) -> Iterator[str]:
+    if isinstance(widget, QToolButton) and isinstance(widget.parentWidget(), QLineEdit):
+        return  # a picture inside a line: Qt makes it as large as the line has room
     size, hint = widget.size(), widget.sizeHint()
     if isinstance(widget, QLabel) and widget.wordWrap():
         hint.setWidth(widget.minimumSizeHint().width())  # the longest word
         hint.setHeight(widget.heightForWidth(size.width()))
     elif isinstance(widget, QLineEdit):
-        hint.setWidth(widget.fontMetrics().horizontalAdvance(widget.text() or widget.placeholderText()) + SIDES)
+        inside = sum(button.width() for button in widget.findChildren(QToolButton))
+        words = widget.text() or widget.placeholderText()
+        hint.setWidth(widget.fontMetrics().horizontalAdvance(words) + SIDES + inside)
         if isinstance(widget.parentWidget(), QComboBox):
             hint.setHeight(0)  # the list has the frame
     elif isinstance(widget, QListWidget):
