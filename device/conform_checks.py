@@ -249,6 +249,18 @@ def clock(session: Session) -> Seen:
     raise Odd(f"TIME counts {rate:.1f} a second at TM 1000")
 
 
+def data_mode(session: Session) -> Seen:
+    """Whether CI ,,1 takes effect while no program runs; left by escape (dmc-1412-1414.txt l.3526) and set back."""
+    talk = session.talk
+    talk.do("CI ,,1")
+    session.restore("CI ,,0", "CI")
+    alone = not talk.line("NO").data
+    if alone:
+        talk.say(b"\x1b")
+    session.put_back("CI")
+    yield "data_mode_alone", alone
+
+
 def marks(session: Session) -> Seen:
     """Whether CW1 marks what MG sends when it is typed; only where --cw tells what CW is set to."""
     if session.cw is None:
@@ -279,6 +291,7 @@ CHECKS: Final[tuple[tuple[str, Check], ...]] = (
     ("arrays", arrays),
     ("upload", upload),
     ("longest line", longest_line),
+    ("data mode", data_mode),
     ("marks", marks),
     ("clock", clock),
 )

@@ -31,7 +31,7 @@ TYPED = {  # what the link itself has sent
     "running program": ["XQ #A"],
     "waiting for a number": ["XQ #I"],
     "waiting for a text": ["XQ #S"],
-    "data mode": ["CI ,,1"],
+    "data mode": ["XQ #A", "CI ,,1"],
 }
 ON_THE_LINE = {  # what the line carries behind the link's back
     "command mode": b"",

@@ -30,6 +30,11 @@ class LineSettings:
     )
     revision: str = fact("Rev 2.0h", "second half of the answer to ^R^V", "inferred (form known)", rows=("^R^V",))
     serial_number: int = fact(1, "what _BN tells", "recall", high=2**31 - 1)
+    data_mode_alone: bool = fact(
+        False,
+        "the data mode of port 1 (CI ,,1) also holds while no program runs",
+        "dmc-1412-1414.txt l.3524 (only when executing a program; what happens else is inferred)",
+    )
     output_fifo: int = fact(
         128,
         "characters that wait for the line before the program does",

@@ -369,3 +369,17 @@ def test_what_is_burned() -> None:
     bench.type("SP 5000;KP 9;BN\r", 400)
     bench.type("RS\r", 1500)
     assert (bench.ask("SP ?"), bench.ask("KP ?")) == (" 00025000", " 09.00".replace("09", "0009"))
+
+
+def test_data_mode_of_port_1_needs_a_program() -> None:
+    # dmc-1412-1414.txt l.3524: "This mode may only be used when executing an applications program"
+    for alone in (False, True):
+        bench = bench_with(data_mode_alone=alone)
+        bench.load("#A\nWT 200\nEN")
+        bench.type("CI ,,1\r")
+        assert bench.type("MG P1CD{F1.0}\r") == ("" if alone else "-1\r\n:")
+        bench.simulation.execute("#A")
+        assert bench.type("NO\r") == ""
+        bench.wait(300)  # the program has ended
+        assert bench.type("NO\r") == ("" if alone else ":")
+        assert bench.type("\x1bNO\r") == ":"

@@ -41,9 +41,11 @@ def clear(port: Port) -> None:
 
 
 def data_mode(unit: Unit, port: Port) -> bool:
-    """Whether what comes in there is data: port 1 by CI, port 2 as a general port (dmc-1412-1414.txt l.3529)."""
+    """Whether what comes in there is data: port 1 by CI while a program runs (l.3524), port 2 as a general port."""
     state = unit.state
-    return state.interrupts[2] == 1 if port.number == 1 else state.port_two[2] == 0
+    if port.number != 1:
+        return state.port_two[2] == 0
+    return state.interrupts[2] == 1 and (unit.profile.data_mode_alone or unit.running())
 
 
 def character(unit: Unit, port: Port, byte: int) -> None:
