@@ -130,6 +130,9 @@ ROWS: tuple[Row, ...] = (
     Row("burn", "Burn…", "Controller", "Writes the program into permanent memory", "", "burn", "run", needs=CHANGE),
     Row("upload", "Upload…", "Controller", "Reads the program that is in the controller", "", "upload", "run",
         needs=(need.live, need.quiet)),
+    Row("compare", "Compare…", "Controller", "File, controller and EEPROM side by side, in plain English", "F6", "diff"),
+    Row("backups", "Back-ups…", "Controller", "Back up, look inside, compare, restore, replace a controller", "Ctrl+B",
+        "save"),
     Row("stop", "STOP", "Controller", "Stops all motion and all programs", "", "stop"),  # F12: app.stop_key
     Row("help", "Help on programming", "Help", "Help for what is in front", "F1", "help", "main", "Help"),
     Row("about", "About Twoletter Studio", "Help", "Version and licence", "", "info"),

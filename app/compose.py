@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 
 from app.actions import MAIN, RUN, Actions
+from app.backup_part import BackupPart
 from app.by_hand import ByHand
 from app.connection import Connection, Connector
 from app.crash import CrashHook
@@ -20,6 +21,7 @@ from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.importing import Importing
 from app.leaving import Leaving
+from app.live_values import LiveValuesReader
 from app.operator import Operator
 from app.options import Options
 from app.right_machine import RightMachine
@@ -84,6 +86,7 @@ class Studio(QObject):
         self.right = RightMachine(self.connection, self.session, self.desk.ask)
         self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
+        self.proof = BackupPart(self.connection, self.run, self.session, self.desk.ask, data, self.window)
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
@@ -99,6 +102,7 @@ class Studio(QObject):
         self.by_hand = ByHand(
             self.connection, self.session, self.tick, self.jog, self.desk.ask, self.ear.homed_axes, self
         )
+        self.program.live = LiveValuesReader(self.connection, self.tick)
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
         self.panels: tuple[Panel, ...] = (
@@ -148,6 +152,7 @@ class Studio(QObject):
             "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
             **{f"execute_{each}": partial(run.execute_slowly, each) for each in PERCENTS},
+            "compare": self.proof.comparing.show, "backups": self.proof.backups.show,
             "stop": self.connection.stop, "help": desk.help_for_focus,
             "about": self._about,
         }  # fmt: skip
@@ -178,6 +183,7 @@ class Studio(QObject):
             self.ear.look,
             self.follow.look,
             self.setup.look,
+            lambda: self.proof.look(self.follow.known),
             self.which.look,
             self.met.look,
             self.search.look,
@@ -194,6 +200,8 @@ class Studio(QObject):
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)
+        self.proof.comparing.show_step.connect(self.program.reveal_step)
+        self.proof.backups.act.connect(lambda name: self.actions[name].trigger())
         for said in (
             self.files.said,
             self.importing.said,
@@ -201,6 +209,7 @@ class Studio(QObject):
             self.start.said,
             self.talk.said,
             self.leaving.said,
+            self.proof.said,
             self.session.autosave_failed,
         ):
             said.connect(self.desk.say)

@@ -56,11 +56,13 @@ class Follow(QObject):
         self._actions, self._window = actions, window
         self._watched: object = None
         self._stop = StopState.NO_LINK
+        self.known = Facts()  # as of the last look
 
     def look(self) -> None:
         """Brings everything up to date; nothing is touched that has not changed."""
         controller = self._connection.controller
-        self._actions.show_facts(self.facts())
+        self.known = self.facts()
+        self._actions.show_facts(self.known)
         self._window.show_stop(controller.kind, controller.stop_state, controller.control)
         self._window.show_title(self._session.title, controller.kind)
         self._show_question()
