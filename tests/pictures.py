@@ -236,7 +236,6 @@ def _states(stage: Stage) -> Iterator[tuple[str, QWidget]]:
 
 def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     from app.crash import CrashDialog
-    from codegen.setup import Unit
 
     studio = stage.studio
     desk, start = studio.desk, studio.start
