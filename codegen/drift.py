@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 from codegen.expressions import Bad, Binary, Expression, Negative, Number, walk
 from codegen.fields import AXES, Dimension, base_letter, value_of
@@ -41,33 +44,75 @@ def turns(repeat: Repeat) -> Fraction:
     return count if repeat.mode is RepeatMode.COUNT and isinstance(count, Fraction) else Fraction(1)
 
 
-def errors(steps: Steps, setup: Setup) -> dict[str, Fraction]:
-    """What one run of the steps is off by on each axis, in user units (sent minus wanted)."""
-    total: dict[str, Fraction] = {}
-    known = set[str]()  # axes that an absolute move puts to a known place
-    for step in steps:
+class Sums:
+    """What the steps beside each other are off by, added up once: any stretch of them costs a few look-ups."""
+
+    def __init__(self, steps: Steps, setup: Setup) -> None:
+        self.steps = steps
+        self.off: dict[str, tuple[list[int], list[Fraction]]] = {}  # by axis: where it grows, and the sum up to there
+        self.known: dict[str, list[int]] = {}  # by axis: where an absolute move puts it to a known place
+        self.cuts: list[int] = []  # where an expression is cut down
+        self.labels: dict[str, int] = {}
+        for number, step in enumerate(steps):
+            if step.enabled:
+                self._add(number, step, setup)
+
+    def _add(self, number: int, step: Step, setup: Setup) -> None:
         move = step.instruction
-        if not step.enabled:
-            continue
-        if isinstance(move, Repeat):
-            for letter, off in errors(step.body, setup).items():
-                total[letter] = total.get(letter, Fraction(0)) + turns(move) * off
-            continue
-        offs, places = _moves(move, setup)
-        known.update(places)
+        if isinstance(move, Label):
+            self.labels.setdefault(move.name, number)
+        elif isinstance(move, Repeat):
+            inside = Sums(step.body, setup)
+            count = turns(move)
+            self._grow(number, ((letter, count * off) for letter, off in inside.errors().items()))
+            if inside.cuts:
+                self.cuts.append(number)
+        else:
+            offs, places, is_cut = _moves(move, setup)
+            for letter in places:
+                self.known.setdefault(letter, []).append(number)
+            if offs:
+                self._grow(number, offs)
+            if is_cut:
+                self.cuts.append(number)
+
+    def _grow(self, number: int, offs: Iterable[tuple[str, Fraction]]) -> None:
         for letter, off in offs:
-            total[letter] = total.get(letter, Fraction(0)) + off
-    return {letter: off for letter, off in total.items() if letter not in known}
+            places, sums = self.off.setdefault(letter, ([], [Fraction(0)]))
+            places.append(number)
+            sums.append(sums[-1] + off)
+
+    def errors(self, start: int = 0, end: int | None = None) -> dict[str, Fraction]:
+        """What one run of the steps is off by on each axis, in user units (sent minus wanted)."""
+        last = len(self.steps) if end is None else end
+        return {
+            letter: sums[bisect_left(places, last)] - sums[bisect_left(places, start)]
+            for letter, (places, sums) in self.off.items()
+            if not _between(self.known.get(letter, ()), start, last)
+        }
+
+    def reverses(self, start: int = 0, end: int | None = None) -> bool:
+        """Whether a distance among the steps is cut down to whole counts, going back as well as forth."""
+        return _between(self.cuts, start, len(self.steps) if end is None else end)
 
 
-def _moves(move: Instruction, setup: Setup) -> tuple[tuple[tuple[str, Fraction], ...], str]:
-    """What an instruction is off by on each axis, and the axes whose place is known behind it; kept with it."""
-    found: tuple[tuple[tuple[str, Fraction], ...], str] | None = move.recall("_drift", setup)
+def _between(places: Sequence[int], start: int, end: int) -> bool:
+    """Whether one of the places, which go upwards, lies there."""
+    return bisect_left(places, start) < bisect_left(places, end)
+
+
+Moves = tuple[tuple[tuple[str, Fraction], ...], str, bool]
+
+
+def _moves(move: Instruction, setup: Setup) -> Moves:
+    """What an instruction is off by on each axis, the axes whose place is known behind it, whether it is cut; kept."""
+    found: Moves | None = move.recall("_drift", setup)
     if found is None:
         wrong = any(finding.severity == "error" for finding in problems(move, setup))  # it sends nothing
         letters = [] if wrong else [letter for letter in setup.letters if letter in AXES]
         offs = ((letter, off_by(move, setup, letter)) for letter in letters)
-        found = tuple(pair for pair in offs if pair[1]), "".join(letter for letter in letters if anew(move, letter))
+        known = "".join(letter for letter in letters if anew(move, letter))
+        found = tuple(pair for pair in offs if pair[1]), known, cut(move) is not None
         move.remember("_drift", setup, found)
     return found
 
@@ -139,34 +184,40 @@ def drift(step: Step, setup: Setup) -> str | None:
     """`This repeat drifts by 1.6 mm in 1000 turns`; None when it stays within a count."""
     if not isinstance(step.instruction, Repeat):
         return None
-    return _drift("This repeat", step.body, setup, turns(step.instruction))
+    return _drift("This repeat", Sums(step.body, setup), 0, len(step.body), setup, turns(step.instruction))
 
 
-def jump_drift(steps: Steps, number: int, setup: Setup) -> str | None:
-    """The same of a loop that a jump without condition closes; `steps[number]` is the jump."""
-    jump = steps[number].instruction
-    if not isinstance(jump, Jump) or jump.kind is not JumpKind.GO or jump.when is not JumpIf.ALWAYS:
-        return None
-    start = next((place for place, step in enumerate(steps[:number]) if _is_label(step, jump.target)), None)
-    return None if start is None else _drift("This loop", steps[start:number], setup, MANY)
+def jump_drift(sums: Sums, number: int, setup: Setup) -> str | None:
+    """The same of a loop that a jump without condition closes; the jump is the step of that number."""
+    jump = sums.steps[number].instruction
+    start = sums.labels.get(jump.target, number) if isinstance(jump, Jump) else number
+    return _drift("This loop", sums, start, number, setup, MANY) if start < number else None
 
 
-def _is_label(step: Step, name: str) -> bool:
-    return step.enabled and isinstance(step.instruction, Label) and step.instruction.name == name
+def closes_a_loop(jump: Instruction) -> bool:
+    """Whether it is a jump without condition."""
+    return isinstance(jump, Jump) and jump.kind is JumpKind.GO and jump.when is JumpIf.ALWAYS
 
 
-def _drift(words: str, body: Steps, setup: Setup, count: Fraction) -> str | None:
-    parts: list[str] = []
-    found = errors(body, setup)
-    for letter in setup.letters:
-        off = found.get(letter, Fraction(0)) * count
-        if abs(off) * setup.axis(letter).scale >= 1:
-            parts.append(f"{letter} by {shown(off, 4)} {setup.axis(letter).symbol}")
+def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fraction) -> str | None:
+    found = sums.errors(start, end)
+    parts = [text for letter, off in found.items() if off and (text := _far(letter, off, setup, count))]
     if parts:
-        return f"{words} drifts: {', '.join(parts)} in {plain(count)} turns"
-    if reverses(body):
+        return f"{words} drifts: {', '.join(sorted(parts, key=_axis_first))} in {plain(count)} turns"
+    if sums.reverses(start, end):
         return f"{words} may drift: expressions are cut down to whole counts, going back as well as forth"
     return None
+
+
+@lru_cache(maxsize=4096)
+def _far(letter: str, off: Fraction, setup: Setup, count: Fraction) -> str:
+    """How far an axis is off after that many turns; nothing when it is less than a count."""
+    axis, far = setup.axis(letter), off * count
+    return f"{letter} by {shown(far, 4)} {axis.symbol}" if abs(far) * axis.scale >= 1 else ""
+
+
+def _axis_first(words: str) -> int:
+    return AXES.index(words[0])
 
 
 def cut(move: Instruction) -> str | None:
@@ -177,11 +228,6 @@ def cut(move: Instruction) -> str | None:
     if isinstance(distance, Fraction | Bad) or not any(map(_is_minus, walk(distance))):
         return None
     return "Distance: the controller rounds it down to whole counts, so going back may be one count longer than forth"
-
-
-def reverses(steps: Steps) -> bool:
-    """Whether one of the steps, or of those inside them, is such a move."""
-    return any(step.enabled and (cut(step.instruction) or reverses(step.body)) for step in steps)
 
 
 def _is_minus(node: Expression) -> bool:

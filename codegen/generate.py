@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 from codegen.compiled import Compiled, code, compiled, numbered
 from codegen.conversion import CALIBRATED_US
 from codegen.document import Document
-from codegen.drift import drift, jump_drift
+from codegen.drift import Sums, closes_a_loop, drift, jump_drift
 from codegen.fields import SYSTEM_LABELS, Choice, fields_of
-from codegen.instructions import End, Jump, LoopRate, Subroutine, TwoLetterCode
+from codegen.instructions import End, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
 from codegen.program import Program, Section, Step, is_closed, program_label
 from codegen.setup import Finding, never_set_up, setup_problems
@@ -159,10 +159,14 @@ class _Pass:
         self.lines += [Line(text) for text in made.before]
 
     def walk(self, steps: tuple[Step, ...], section: Section) -> None:
+        sums: Sums | None = None
         for number, step in enumerate(steps):
-            if step.enabled:
-                self.step(step, section)
-                if isinstance(step.instruction, Jump) and (text := jump_drift(steps, number, self.setup)):
+            if not step.enabled:
+                continue
+            self.step(step, section)
+            if closes_a_loop(step.instruction):
+                sums = sums or Sums(steps, self.setup)
+                if text := jump_drift(sums, number, self.setup):
                     self.problems.append(Finding("", text, "warning", "", step.id))
 
     def step(self, step: Step, section: Section) -> None:
