@@ -47,6 +47,15 @@ class Chain:
                 simulation.advance(step)
             if self.ticks % GRID == 0:
                 self._carry()
+                self._share_clock()
+
+    def _share_clock(self) -> None:
+        """Those with a negative TM sample with the one that has a clock of its own (SSC manual l.1231)."""
+        units = [simulation.unit for simulation in self.units]
+        takers = [unit for unit in units if unit.state.settings["TM"] < 0]
+        sources = [unit for unit in units if unit.state.settings["TM"] > 0]
+        for unit in takers if sources else ():
+            unit.take_clock(sources[0].clock)
 
     def _carry(self) -> None:
         """What is on the wires between the controllers reaches their other ends."""

@@ -118,6 +118,19 @@ class Unit:
         """TM: the next sample comes a new period after the last; waits in samples follow."""
         self.motion  # noqa: B018  every sample up to now is taken with the old period
         self.clock.set_period(self.profile.period(period))
+        self._move_waits()
+
+    def take_clock(self, source: Clock) -> None:
+        """An external sample clock: samples come when those of the source come."""
+        clock = self.clock
+        if clock.period == source.period and (clock.tick - source.tick) % source.period == 0:
+            return
+        self.motion  # noqa: B018
+        clock.set_period(source.period)
+        clock.tick = clock.now - (clock.now - source.tick) % source.period
+        self._move_waits()
+
+    def _move_waits(self) -> None:
         for strand in self.state.strands():
             if strand.wait is not None and strand.wait.sample >= 0:
                 strand.wait.wake = max(self.clock.now, self.clock.tick_of(strand.wait.sample))

@@ -198,3 +198,21 @@ def test_a_served_chain() -> None:
         client.sendall(b"PR 700;BG;AM;RP\r")
         assert until(client, b"\r\n:") == b"::: 0000000700\r\n:"
         assert [state["axes"]["X"]["commanded"] for state in simulator.state()["chain"]] == [0, 700]
+
+
+def test_the_sample_clock_of_another_controller() -> None:
+    # SSC manual l.1231: TM-1 in all but one, which is the source
+    host = Host(name="ssc1")
+    for line in ("%0", "TM 2000", "%1", "TM -1", "!WT 1"):
+        assert host.type(line + "\r") == ":", line
+    before = [simulation.unit.sample for simulation in host.chain.units]
+    host.wait(1000)  # true milliseconds: 512 samples of 2/1024 s
+    counted = [simulation.unit.sample - was for simulation, was in zip(host.chain.units, before, strict=True)]
+    assert counted == [512, 512]
+    ticks = [simulation.unit.clock.tick for simulation in host.chain.units]
+    assert (ticks[0] - ticks[1]) % 2000 == 0
+    assert not host.chain.units[1].unit.notices
+    host.type("TM 1000\r")  # its own clock again
+    before = [simulation.unit.sample for simulation in host.chain.units]
+    host.wait(1000)
+    assert host.chain.units[1].unit.sample - before[1] == 1024

@@ -323,7 +323,7 @@ def test_an_external_clock_is_said_to_be_missing() -> None:
     assert bench.simulation.unit.clock.period == 2000  # the last sample time goes on
     assert bench.ask("TM?") == "-00001"
     assert bench.simulation.notices == [
-        "an external sample clock (negative TM) is not simulated: the last sample time goes on"
+        "no external sample clock is connected (negative TM): the last sample time goes on"
     ]
     bench.type("BN\r", 500)  # SSC manual l.1231: burned in all but one
     assert Bench("dmc1412", eeprom=eeprom).simulation.notices == bench.simulation.notices

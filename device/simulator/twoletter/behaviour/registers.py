@@ -80,16 +80,15 @@ def _sample_time(unit: Unit, axis: int, value: int) -> None:
 
 
 def follow_sample_time(unit: Unit) -> None:
-    """TM; negative takes the clock of another controller (SSC manual l.1231), here the last sample time goes on.
+    """TM; negative takes the clock of another controller of the chain (SSC manual l.1231).
 
-    There is no such wire in the simulator. The controllers of a simulated chain share one time, so with the same TM
-    their samples coincide without it.
+    Where there is no other one, the last sample time goes on and a notice says so.
     """
     value = unit.state.settings["TM"]
-    if value < ONE:
-        unit.notice("an external sample clock (negative TM) is not simulated: the last sample time goes on")
-    else:
+    if value >= ONE:
         unit.set_sample_time(value // ONE)
+    elif not unit.chained:
+        unit.notice("no external sample clock is connected (negative TM): the last sample time goes on")
 
 
 def _look(unit: Unit, axis: int, value: int) -> None:
