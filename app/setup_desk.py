@@ -67,6 +67,8 @@ class SetupDesk(QObject):
     def show(self) -> None:
         """The setup of the open program, or the window as it is open already."""
         if self.window is None or not self.window.isVisible():
+            if self.window is not None:
+                self.window.deleteLater()
             self.window = self._make()
             self.look()
             self._show_file()

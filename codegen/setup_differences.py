@@ -89,7 +89,7 @@ def difference(setup: Setup, register: Register, letter: str, found: Value) -> D
     states = register.wanted(setup, letter) is not None
     mine = _field_words(setup, register, letter)
     theirs = register.taken(setup, letter, found)
-    told = _field_words(theirs, register, letter) if not register.ceiling else _ceiling_words(setup, register, found)
+    told = _field_words(theirs, register, letter) if not register.ceiling else _ceiling_words(register, found)
     return Difference(
         register.command,
         letter,
@@ -114,6 +114,13 @@ def counts_text(register: Register, value: Value) -> str:
 
 def _field_words(setup: Setup, register: Register, letter: str) -> str:
     """What the fields say, with their unit and the register's number."""
+    words, wanted = _typed_words(setup, register, letter), register.wanted(setup, letter)
+    code = "" if wanted is None else counts_text(register, wanted)
+    return words if not code or code == words else f"{words} ({register.command} {code})"
+
+
+def _typed_words(setup: Setup, register: Register, letter: str) -> str:
+    """What the fields say, with their unit."""
     axis, context = setup.axis(letter), Context(setup, letter)
     parts = []
     for name in register.fields:
@@ -122,13 +129,10 @@ def _field_words(setup: Setup, register: Register, letter: str) -> str:
             parts.append("yes" if held else "no")
         else:
             parts.append(NOT_SET if field.empty(held) else field.text(held, context))
-    words = " / ".join(parts)
-    wanted = register.wanted(setup, letter)
-    code = "" if wanted is None else counts_text(register, wanted)
-    return words if not code or code == words else f"{words} ({register.command} {code})"
+    return " / ".join(parts)
 
 
-def _ceiling_words(setup: Setup, register: Register, found: Value) -> str:
+def _ceiling_words(register: Register, found: Value) -> str:
     return f"{register.command} {counts_text(register, found)}"
 
 
@@ -137,7 +141,9 @@ def mark(setup: Setup, readings: Readings, name: str, letter: str) -> str:
     for register in OF_FIELD.get(name, ()):
         found = readings.get((register.command, letter))
         if found is not None and differs(setup, register, letter, found):
-            return difference(setup, register, letter, found).controller
+            if register.ceiling:
+                return _ceiling_words(register, found)
+            return _typed_words(register.taken(setup, letter, found), register, letter)
     return ""
 
 

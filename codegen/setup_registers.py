@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from codegen.conversion import LARGEST
 from codegen.fields import OFF, Dimension
-from codegen.numbers import decimal, is_short_decimal, parse_number, plain
+from codegen.numbers import decimal, parse_number, plain
 from codegen.setup import Axis, EncoderType, MotorType, Setup
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.emit.machine import AUXILIARY_STEP, MAIN_CODES, MOTOR_CODES
@@ -23,6 +23,7 @@ from codegen.twoletter.fixed import ONE, scaled
 
 Value = int  # in 1/65536
 SMOOTH = 256  # steps of the smoothing filter
+SHORT = 10**7  # a decimal of so many places is shown exact
 PLACES = 16  # decimals after which every number of a controller has ended
 Stated = Callable[[Setup, str], Fraction | None]
 Told = Callable[[Setup, str, Fraction], dict[str, Any]]
@@ -79,7 +80,7 @@ def factory(command: str) -> Value:
 
 def shortest(number: Fraction, fits: Callable[[Fraction], bool]) -> str:
     """The decimal with the fewest places that stands for the same thing; exact where one ends soon."""
-    if is_short_decimal(number) and number.denominator < 10**6 and fits(number):
+    if SHORT % number.denominator == 0 and fits(number):
         return plain(number)
     return next((text for text in _nearby(number) if fits(Fraction(text))), decimal(number, PLACES))
 

@@ -39,6 +39,7 @@ class Calculator(QDialog):
         self.take.clicked.connect(self._take)
         self.cancel.clicked.connect(self.reject)
         self._work_out()
+        self.form.focus_first()
 
     def _work_out(self) -> None:
         found = scale_of(self.form.item, self._setup, self._letter)

@@ -146,7 +146,8 @@ def test_a_mark_stands_at_the_field_that_differs() -> None:
     assert mark(one(kp="12.5"), readings, "kp", "X") == ""
     assert "Quadrature, reversed" in mark(one(), readings, "main_encoder", "X")
     assert mark(one(), readings, "forward_limit", "X") == ""  # off is what a reset leaves
-    assert mark(one(forward_limit="3"), readings, "forward_limit", "X").startswith("off")
+    assert mark(one(forward_limit="3"), readings, "forward_limit", "X") == "off"
+    assert mark(one(torque_limit="5"), reading({"TL": 9.9982}), "torque_limit", "X") == "9.9982 V"
 
 
 def test_a_loop_rate_other_than_the_setups_is_told() -> None:

@@ -303,7 +303,7 @@ def test_what_differs_is_listed_and_marked(qtbot: QtBot) -> None:
     told = [[table.item(row, column).text() for column in range(4)] for row in range(table.rowCount())]
     assert ["X", "Forward software limit (FL)", "not set", "25 mm (FL 2500)"] in told
     window.open_page(window.limits)
-    assert window.limits.grid.cells["forward_limit", "X"].problem.text() == "△ controller: 25 mm (FL 2500)"
+    assert window.limits.grid.cells["forward_limit", "X"].problem.text() == "△ controller: 25 mm"
     assert "(4)" in window.list.item(7).text()
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QLineEdit, QWidget
 
 from codegen.fields import Choice, Context, Field, Flag, fields_of
 from codegen.setup import Axis, Setup
@@ -59,8 +59,11 @@ class AxisGrid(QWidget):
         counts = None if problem or field.empty(held) else field.counts(held, context)
         sent = counts.text if counts is not None and counts.text != held else ""
         other = mark(setup, shown.readings, name, letter)
-        warning = f"controller: {other}" if other else counts.warning if counts is not None else None
-        cell.show_facts(field.unit(context), sent, warning, _short(problem, field.label))
+        cell.show_facts(
+            field.unit(context), sent, f"controller: {other}" if other else None, _short(problem, field.label)
+        )
+        if isinstance(cell.editor, QComboBox):
+            cell.editor.setToolTip(f"{cell.editor.currentText()}\n{field.help}")
         cell.editor.setProperty("differs", bool(other))
 
     @staticmethod
