@@ -44,45 +44,63 @@ def turns(repeat: Repeat) -> Fraction:
     return count if repeat.mode is RepeatMode.COUNT and isinstance(count, Fraction) else Fraction(1)
 
 
+MOVES = frozenset(
+    {
+        SingleAxisMove,
+        IncrementalPosition,
+        ContourMode,
+        LinearPath,
+        CircularPath,
+        TangentPath,
+        Home,
+        DefinePosition,
+    }
+)
+
+
 class Sums:
-    """What the steps beside each other are off by, added up once: any stretch of them costs a few look-ups."""
+    """What the steps beside each other are off by, added up once: any stretch of them costs a few look-ups.
+
+    Sums are floats: they are far finer than the four digits that are shown, and made anew at every edit.
+    """
 
     def __init__(self, steps: Steps, setup: Setup) -> None:
         self.steps = steps
-        self.off: dict[str, tuple[list[int], list[Fraction]]] = {}  # by axis: where it grows, and the sum up to there
+        self.off: dict[str, tuple[list[int], list[float]]] = {}  # by axis: where it grows, and the sum up to there
         self.known: dict[str, list[int]] = {}  # by axis: where an absolute move puts it to a known place
         self.cuts: list[int] = []  # where an expression is cut down
         self.labels: dict[str, int] = {}
         for number, step in enumerate(steps):
-            if step.enabled:
-                self._add(number, step, setup)
+            move = step.instruction
+            kind = type(move)
+            if kind in MOVES:
+                if step.enabled:
+                    self._add(number, move, setup)
+            elif isinstance(move, Label) and step.enabled:
+                self.labels.setdefault(move.name, number)
+            elif isinstance(move, Repeat) and step.enabled:
+                inside = Sums(step.body, setup)
+                count = float(turns(move))
+                self._grow(number, ((letter, count * off) for letter, off in inside.errors().items()))
+                if inside.cuts:
+                    self.cuts.append(number)
 
-    def _add(self, number: int, step: Step, setup: Setup) -> None:
-        move = step.instruction
-        if isinstance(move, Label):
-            self.labels.setdefault(move.name, number)
-        elif isinstance(move, Repeat):
-            inside = Sums(step.body, setup)
-            count = turns(move)
-            self._grow(number, ((letter, count * off) for letter, off in inside.errors().items()))
-            if inside.cuts:
-                self.cuts.append(number)
-        else:
-            offs, places, is_cut = _moves(move, setup)
-            for letter in places:
-                self.known.setdefault(letter, []).append(number)
-            if offs:
-                self._grow(number, offs)
-            if is_cut:
-                self.cuts.append(number)
+    def _add(self, number: int, move: Instruction, setup: Setup) -> None:
+        offs, places, is_cut = _moves(move, setup)
+        for letter in places:
+            self.known.setdefault(letter, []).append(number)
+        if offs:
+            self._grow(number, offs)
+        if is_cut:
+            self.cuts.append(number)
 
-    def _grow(self, number: int, offs: Iterable[tuple[str, Fraction]]) -> None:
+    def _grow(self, number: int, offs: Iterable[tuple[str, float]]) -> None:
         for letter, off in offs:
-            places, sums = self.off.setdefault(letter, ([], [Fraction(0)]))
+            places, sums = self.off.setdefault(letter, ([], [0.0]))
             places.append(number)
             sums.append(sums[-1] + off)
 
-    def errors(self, start: int = 0, end: int | None = None) -> dict[str, Fraction]:
+    def errors(self, start: int = 0, end: int | None = None) -> dict[str, float]:
         """What one run of the steps is off by on each axis, in user units (sent minus wanted)."""
         last = len(self.steps) if end is None else end
         return {
@@ -101,7 +119,7 @@ def _between(places: Sequence[int], start: int, end: int) -> bool:
     return bisect_left(places, start) < bisect_left(places, end)
 
 
-Moves = tuple[tuple[tuple[str, Fraction], ...], str, bool]
+Moves = tuple[tuple[tuple[str, float], ...], str, bool]
 
 
 def _moves(move: Instruction, setup: Setup) -> Moves:
@@ -112,7 +130,7 @@ def _moves(move: Instruction, setup: Setup) -> Moves:
         letters = [] if wrong else [letter for letter in setup.letters if letter in AXES]
         offs = ((letter, off_by(move, setup, letter)) for letter in letters)
         known = "".join(letter for letter in letters if anew(move, letter))
-        found = tuple(pair for pair in offs if pair[1]), known, cut(move) is not None
+        found = tuple((letter, float(off)) for letter, off in offs if off), known, cut(move) is not None
         move.remember("_drift", setup, found)
     return found
 
@@ -201,7 +219,7 @@ def closes_a_loop(jump: Instruction) -> bool:
 
 def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fraction) -> str | None:
     found = sums.errors(start, end)
-    parts = [text for letter, off in found.items() if off and (text := _far(letter, off, setup, count))]
+    parts = [text for letter, off in found.items() if (text := _far(letter, round(off, 12), setup, count))]
     if parts:
         return f"{words} drifts: {', '.join(sorted(parts, key=_axis_first))} in {plain(count)} turns"
     if sums.reverses(start, end):
@@ -210,9 +228,9 @@ def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fr
 
 
 @lru_cache(maxsize=4096)
-def _far(letter: str, off: Fraction, setup: Setup, count: Fraction) -> str:
+def _far(letter: str, off: float, setup: Setup, count: Fraction) -> str:
     """How far an axis is off after that many turns; nothing when it is less than a count."""
-    axis, far = setup.axis(letter), off * count
+    axis, far = setup.axis(letter), Fraction(off).limit_denominator(10**12) * count
     return f"{letter} by {shown(far, 4)} {axis.symbol}" if abs(far) * axis.scale >= 1 else ""
 
 
