@@ -36,6 +36,7 @@ from app.stop_key import StopKey
 from app.talk import Talk
 from app.theme import Choice, Theme
 from app.tick import Tick
+from app.variables import Variables
 from app.which_model import WhichModel
 from app.window import BOTTOM, LEFT, RIGHT, Window
 from codegen.document import Document
@@ -52,6 +53,7 @@ from widgets.plane.panel import PlanePanel
 from widgets.program.view import ProgramView
 from widgets.simulator.panel import SimulatorPanel
 from widgets.terminal.terminal import TerminalPanel
+from widgets.values.panel import ValuesPanel
 
 
 class Studio(QObject):
@@ -79,7 +81,7 @@ class Studio(QObject):
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
         self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
-        self.jog = JogPanel(clock=clock)
+        self.jog, self.values = JogPanel(clock=clock), ValuesPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.importing = Importing(self.session, self.desk.ask, self.window)
@@ -89,6 +91,7 @@ class Studio(QObject):
         self.proof = BackupPart(self.connection, self.run, self.session, self.desk.ask, data, self.window)
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
+        self.variables = Variables(self.connection, self.tick, self.values, self.desk.ask, self.files.folder, self)
         self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
@@ -111,6 +114,7 @@ class Studio(QObject):
             self.plane,
             self.keys,
             self.jog,
+            self.values,
             self.terminal,
             self.simulator,
             self.ear,
@@ -145,7 +149,7 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
-            "jog": partial(desk.bring, "Jog"),
+            "jog": partial(desk.bring, "Jog"), "variables": partial(desk.bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
@@ -169,6 +173,7 @@ class Studio(QObject):
         window.add("Problems", self.program.problems, BOTTOM)
         window.add("Messages", self.messages, BOTTOM)
         window.add("Terminal", self.terminal, BOTTOM, moves=True)
+        window.add("Variables", self.values, BOTTOM, moves=True)
         self.actions.fill_menus(header.menus, window.submenus)
         self.actions.fill_toolbar(header.toolbar, MAIN)
         self.actions.fill_toolbar(window.run_bar.toolbar, RUN)

@@ -170,6 +170,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "panel-x-y-view", studio.window
     yield from _jog(stage)
     yield from _operator(stage)
+    yield from _values(stage)
 
 
 def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
@@ -190,6 +191,21 @@ def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
         panel.buttons[number].click()
         stage.go()
         yield f"panel-jog-{name}", stage.studio.window
+
+
+def _values(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """Variables beside a recipe, and an array with its picture."""
+    stage.rig.start("#A\nLEN=12.5\nCOUNT=1200\nDM POS[20]\nN=0\n#L;POS[N]=N*N;N=N+1;JP #L,N<20\nEN")
+    stage.later(1)
+    panel = stage.studio.values
+    stage.studio.desk.bring("Variables")
+    panel.read.click()
+    stage.until(lambda: "LEN 12.5" in panel.words())
+    panel.table.setCurrentCell(panel.table.rowCount() - 1, 0)
+    stage.until(lambda: panel.elements.rowCount() == 20)
+    panel.show_recipe({"LEN": "13", "COUNT": "1200"})
+    stage.go()
+    yield "panel-variables", stage.studio.window
 
 
 def _operator(stage: Stage) -> Iterator[tuple[str, QWidget]]:

@@ -1,0 +1,1 @@
+"""Variables and arrays of the controller."""
