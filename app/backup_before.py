@@ -20,7 +20,7 @@ from codegen.setup import Setup
 from device.api import Controller, Job, Kind, NotAllowed, State
 from device.backing_up import backup_steps
 from device.backup import Backup, load
-from device.backup_kept import controller_name, keep, kept, same_contents
+from device.backup_kept import adds_nothing, controller_name, keep, kept
 from device.tasks import Priority
 
 BUDGET_S = 0.6  # what a download may take longer; the rest is left out, and named
@@ -141,6 +141,6 @@ def folder_of(root: Path, controller: Controller) -> Path | None:
 
 def _same(path: Path, found: Backup) -> bool:
     try:
-        return same_contents(load(path), found)
+        return adds_nothing(load(path), found)
     except FileUnreadable:
         return False

@@ -56,6 +56,7 @@ class Eeprom(QObject):
         self._burning: frozenset[str] = frozenset()  # typed, not answered yet
         self._to_read: frozenset[str] = frozenset()  # burned, and not known which values
         self._heard = 0
+        self._judged: tuple[tuple[object, ...], bool | None] | None = None
         run.downloaded.connect(lambda listing: self._downloaded(listing))
         run.burned.connect(self.burned)
 
@@ -105,10 +106,21 @@ class Eeprom(QObject):
     @property
     def same_as_controller(self) -> bool | None:
         """Whether the program in the EEPROM is the one in the controller; None where one of them is not known."""
-        listing = self._connection.controller.listing
-        if self.known.program is None or listing is None or self._connection.controller.doubt:
-            return None
-        return [line.text for line in self.known.program] == program_lines(listing)
+        controller = self._connection.controller
+        key = (self.known, controller.listing, controller.doubt)
+        if self._judged is None or any(one is not other for one, other in zip(self._judged[0], key, strict=True)):
+            same = None
+            if self.known.program is not None and controller.listing is not None and not controller.doubt:
+                same = [line.text for line in self.known.program] == program_lines(controller.listing)
+            self._judged = (key, same)
+        return self._judged[1]
+
+    @property
+    def words(self) -> str:
+        """What is known of the EEPROM, as a sentence."""
+        if self.known.program is None:
+            return "What program is in the EEPROM is not known: this studio has not burned it."
+        return f"The EEPROM holds “{self.known.name}” as burned from here on {self.known.program_when}."
 
     def _downloaded(self, listing: Listing) -> None:
         document = self._session.document

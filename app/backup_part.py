@@ -7,7 +7,6 @@ from datetime import datetime
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QWidget
 
 from app.backup_before import Keeping
 from app.backup_compare import Comparing
@@ -17,6 +16,7 @@ from app.connection import Connection
 from app.facts import Facts
 from app.run import Ask, Run
 from app.session import Session
+from app.window import Window
 
 
 class BackupPart(QObject):
@@ -31,16 +31,17 @@ class BackupPart(QObject):
         session: Session,
         ask: Ask,
         data: Path,
-        window: QWidget,
+        window: Window,
         now: Callable[[], datetime] = datetime.now,
     ) -> None:
         super().__init__(window)
-        self._run = run
+        self._bar = window.run_bar
         self.keeping = Keeping(connection, run, ask, lambda: session.document.setup, data, now, self)
         self.eeprom = Eeprom(connection, run, session, data, now, self)
         self.backups = Backups(connection, run, self.keeping, ask, window)
         self.comparing = Comparing(connection, run, session, self.eeprom, window, now)
         run.before = self.keeping.before
+        self._bar.badge.clicked.connect(self.comparing.show)
         for part in (self.keeping, self.eeprom, self.backups):
             part.said.connect(self.said)
 
@@ -49,3 +50,4 @@ class BackupPart(QObject):
         self.eeprom.look()
         self.backups.look(facts)
         self.comparing.look(facts)
+        self._bar.show_eeprom(self.eeprom.same_as_controller, self.eeprom.words)

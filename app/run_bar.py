@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolBar, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QToolBar, QWidget
 
 from app.header import tool_bar
 from app.held import Held, Holding
-from widgets.panel import set_text, show_role
+from widgets.panel import show_role
 
 BADGES = {
     Holding.SAME: (
@@ -45,7 +45,8 @@ BADGES = {
     ),
 }
 
-ROOM = 32  # px: margins and the space between
+EEPROM = {True: ", burned", False: ", not burned", None: ", EEPROM unknown"}
+ROOM = 48  # px: margins and the space between
 
 
 class RunBar(QWidget):
@@ -57,8 +58,11 @@ class RunBar(QWidget):
         self.toolbar.setObjectName("run")
         self.toolbar.setIconSize(QSize(20, 20))
         self.toolbar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.badge = QLabel()
+        self.badge = QPushButton()
+        self.badge.setAutoDefault(False)
         self._shown: Held | None = None
+        self._eeprom: bool | None = None
+        self._eeprom_words = ""
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 12, 0)
         row.setSpacing(8)
@@ -71,6 +75,12 @@ class RunBar(QWidget):
         """None: nothing is connected, nothing to compare with."""
         if held != self._shown:
             self._shown = held
+            self._show_badge()
+
+    def show_eeprom(self, same: bool | None, words: str) -> None:
+        """Whether the EEPROM holds what the controller holds (None: not known), and that in a sentence."""
+        if (same, words) != (self._eeprom, self._eeprom_words):
+            self._eeprom, self._eeprom_words = same, words
             self._show_badge()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -88,8 +98,15 @@ class RunBar(QWidget):
         role, words, short, help_text = BADGES[held.holding] if held is not None else ("quiet", "", "", "")
         percent = held.percent if held is not None else 0
         words, short = words.format(percent=percent), short.format(percent=percent)
+        if held is not None and held.holding is Holding.SAME:
+            words, short = f"{words}{EEPROM[self._eeprom]}", f"{short}{EEPROM[self._eeprom]}"
+            role = role if self._eeprom is not False else "warning"
         needed = self.toolbar.sizeHint().width() + self.badge.fontMetrics().horizontalAdvance(words) + ROOM
-        set_text(self.badge, words if needed <= self.width() else short)
-        self.badge.setToolTip(help_text.format(held=held.words) if held is not None else "")
+        text = words if needed <= self.width() else short
+        if text != self.badge.text():
+            self.badge.setText(text)
+        self.badge.setVisible(held is not None)
+        about = help_text.format(held=held.words) if held is not None else ""
+        self.badge.setToolTip(f"{about}\n{self._eeprom_words}\nClick: compare file, controller and EEPROM (F6)")
         self.badge.setAccessibleName(f"Program in the controller: {words}")
-        show_role(self.badge, role)
+        show_role(self.badge, f"badge_{role}")

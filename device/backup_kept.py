@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -79,10 +79,11 @@ def glance(path: Path) -> Kept:
     return Kept(path, serial=serial if isinstance(serial, int) else None, **texts)
 
 
-def same_contents(one: Backup, other: Backup) -> bool:
-    """Whether two hold the same, whenever and for whatever they were taken."""
-    return _bare(one) == _bare(other)
-
-
-def _bare(backup: Backup) -> Backup:
-    return replace(backup, taken="", note="", reason="", port="")
+def adds_nothing(newest: Backup, found: Backup) -> bool:
+    """Whether everything found is in the newest one already (a quick one may have left out more)."""
+    return (
+        (newest.model, newest.serial, newest.program) == (found.model, found.serial, found.program)
+        and found.parameters.items() <= newest.parameters.items()
+        and found.variables.items() <= newest.variables.items()
+        and found.arrays.items() <= newest.arrays.items()
+    )
