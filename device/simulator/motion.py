@@ -211,6 +211,10 @@ class Motion(Moves, Outside):
         self._array[:] = snapshot
         self._array[layout.TRACE_CAPACITY : layout.TRACE_COUNTDOWN + 1] = kept
 
+    def rewind(self, snapshot: Vector) -> None:
+        """Back to a snapshot of this very run, its trace too: the same samples will be recorded in the same rows."""
+        self._array[:] = snapshot
+
     def trace(self, rows: int, every: int = 1) -> None:
         """Records every n-th sample into memory for `rows` rows, touched now; 0 ends it."""
         self._trace = numpy.ones(max(1, rows * layout.trace_columns(self.axes)))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeAlias
 
@@ -50,6 +51,9 @@ Look: TypeAlias = Callable[["Seen", "set[Range]"], int]
 """Adds the ranges within which a condition stays what it is; answers the tick that may change it."""
 
 
+INSIDE: Final = 0.49  # of 1/65536: what is surely rounded to the next one
+
+
 @dataclass(frozen=True, slots=True)
 class Measure:
     """An operand that is a slot of its axis times `step`: comparing it with something is comparing the slot."""
@@ -57,8 +61,25 @@ class Measure:
     slot: int
     step: int = ONE  # in 1/65536
     whole: bool = True  # the slot holds whole numbers; else the operand is rounded to 1/65536
+    cut: bool = False  # the operand is the whole part of the slot, which is never negative
+
+    def told(self, value: float) -> int:
+        """The operand when the slot holds that."""
+        return int(value) * self.step if self.cut else round(value * self.step)
+
+    def range(self, low: int, high: int) -> tuple[float, float]:
+        """What the slot holds while the operand is one of these."""
+        if not self.whole:
+            return (low - INSIDE) / self.step, (high + INSIDE) / self.step
+        lowest, highest = float(-(-low // self.step)), float(high // self.step)
+        if self.cut:
+            return max(lowest, 0.0), math.nextafter(highest + 1.0, -math.inf)
+        if self.step == ONE:  # positions are told within 32 bits
+            return max(lowest, -(2.0**31)), min(highest, 2.0**31 - 1.0)
+        return lowest, highest
 
 
+TRAVELLED: Final = Measure(layout.PATH_TRAVELLED, cut=True)  # _AV: there is one, whatever axis is named
 NUMBERS: Final = {
     "TP": Measure(layout.ACTUAL),
     "DP": Measure(layout.ACTUAL),
@@ -99,6 +120,7 @@ SLOTS: Final[dict[str, tuple[int, ...]]] = {
 COMMON: Final[dict[str, tuple[int, ...]]] = {
     "CM": (layout.CONTOUR_BUFFERED,),
     "CS": (layout.PATH_OUT_HEAD,),
+    "AV": (TRAVELLED.slot,),
     "LM": (
         layout.PATH_FINISHED,
         layout.PATH_TAIL,
@@ -114,7 +136,6 @@ COMMANDED: Final = frozenset(
     | (STORES.keys() - READS.keys())
 )
 KEYWORDS: Final = frozenset({"P1CH", "P2CH", "P1CD", "P2CD", "F1", "F2", "F3", "F4", "F5"})  # reading changes nothing
-INSIDE: Final = 0.49  # of 1/65536: what is surely rounded to the next one
 COMPARES: Final = {"<": ">", ">": "<", "=": "=", "<=": ">=", ">=": "<=", "<>": "<>"}  # as seen from the other side
 
 
@@ -156,6 +177,8 @@ def _operand(name: str, suffix: str, unit: Unit) -> tuple[Look, ...] | None:
     if name in COMMON:
         return (_still(COMMON[name]),)
     axis = AXES.find(suffix or "X")
+    if name == "PA" and 0 <= axis < len(unit.model.axes):
+        return (_target_look(axis_base(axis)),)
     if name not in SLOTS or not 0 <= axis < len(unit.model.axes):
         return None
     return (_still(tuple(axis_base(axis) + slot for slot in SLOTS[name])),)
@@ -176,10 +199,26 @@ def _still(slots: tuple[int, ...]) -> Look:
     """None of these slots changes."""
 
     def look(seen: Seen, ranges: set[Range]) -> int:
+        _keep(slots, seen.unit.motion, ranges)
+        return FOREVER
+
+    return look
+
+
+def _keep(slots: Iterable[int], motion: Motion, ranges: set[Range]) -> None:
+    for slot in slots:
+        value = motion.slot(slot)
+        ranges.add((slot, value, value))
+
+
+def _target_look(base: int) -> Look:
+    """_PA is where a move to a position ends, else where the profile is."""
+
+    def look(seen: Seen, ranges: set[Range]) -> int:
         motion = seen.unit.motion
-        for slot in slots:
-            value = motion.slot(slot)
-            ranges.add((slot, value, value))
+        aims = motion.slot(base + layout.MOVING) and motion.slot(base + layout.MODE) == layout.MODE_POSITION
+        place = layout.TARGET if aims else layout.REFERENCE
+        _keep((base + slot for slot in (layout.MOVING, layout.MODE, place)), motion, ranges)
         return FOREVER
 
     return look
@@ -210,6 +249,8 @@ def ramp(expression: Expression, unit: Unit) -> Ramp | None:
     match expression:
         case Keyword("TIME"):
             return Ramp("TIME", 0)
+        case Operand("AV"):
+            return Ramp("AV", 0)
         case Operand(name, suffix) if name in NUMBERS:
             axis = AXES.find(suffix or "X")
             return Ramp(name, axis) if 0 <= axis < len(unit.model.axes) else None
@@ -249,8 +290,10 @@ def _comparison(operator: str, left: Expression, right: Expression, unit: Unit) 
     return None
 
 
-def _slot(line: Ramp, motion: Motion) -> int:
-    base, slot = axis_base(line.axis), NUMBERS[line.name].slot
+def _slot(line: Ramp, measure: Measure, motion: Motion) -> int:
+    if measure is TRAVELLED:
+        return measure.slot
+    base, slot = axis_base(line.axis), measure.slot
     if slot == layout.AUXILIARY and motion.slot(base + layout.STEPPER):
         slot = layout.STEPS  # TD of a stepper
     return base + slot
@@ -281,20 +324,15 @@ def _time_edge(line: Ramp, operator: str, still: Evaluator) -> Look:
 
 
 def _slot_edge(line: Ramp, operator: str, still: Evaluator) -> Look:
-    measure, letter = NUMBERS[line.name], AXES[line.axis]
+    measure, letter = NUMBERS.get(line.name, TRAVELLED), AXES[line.axis]
 
     def look(seen: Seen, ranges: set[Range]) -> int:
-        names, place = seen.unit.names, _slot(line, seen.unit.motion)
+        names, place = seen.unit.names, _slot(line, measure, seen.unit.motion)
         value, now = names.operand(line.name, letter), seen.unit.clock.motion.slot(place)
         low, high = _around(line, value, operator, still, names)
-        if not low <= value <= high or value != round(now * measure.step):
+        if not low <= value <= high or value != measure.told(now):
             raise Restless
-        if measure.whole:
-            lowest, highest = float(-(-low // measure.step)), float(high // measure.step)
-            if measure.step == ONE:  # positions are told within 32 bits
-                lowest, highest = max(lowest, -(2.0**31)), min(highest, 2.0**31 - 1.0)
-        else:
-            lowest, highest = (low - INSIDE) / measure.step, (high + INSIDE) / measure.step
+        lowest, highest = measure.range(low, high)
         if not lowest <= now <= highest:
             raise Restless
         ranges.add((place, lowest, highest))

@@ -54,6 +54,57 @@ RA V[],W[];RD _TPX,_TEX;RC 1,9|RC 0|CI,2|OF 0.1|KP 8,8
 MOVES_FIRST = [4] * len(MOVES) + [1] * len(DEEDS)
 
 
+SETS = (
+    """
+C=_TPX|C=_TPX|C=_RPX-A|C=TIME-T0|C=_TEX|C=@ABS[_TPY]|C=_AVS|C=_PAX|C=V[1]|C=_TTX*10|C=_TPX/7|C=100/_TPX|C="AB"|C=A
+C=_TIX|C=@SIN[_TPX]*50|C=D|C=F*2|D=@IN[1]|D=_BGX|D=C+1|D=C|D=_TPX<A|D=_XQ1|D=V[C]|D=-C|D=_TPZ-_TPX|F=F+1|F=F-0.5|F=2+F
+F=F+C|NEW=_TPX|V[2]=_TPX|D=@AN[1]|F=F+1|A=A|B=_TVX
+""".replace("\n", "|")
+    .strip("|")
+    .split("|")
+)
+ABOUT_SETS = (
+    """
+C<500|C>A|@ABS[C]<50|D=1|D<>0|(C<300)|(D=1)|(C>20)&(_BGX=1)|F<30|F<4000|C-D<50|C<_RPX|D>_TPX|C=D|_TPX-C<30|C<A+100|V[D]<5
+""".replace("\n", "|")
+    .strip("|")
+    .split("|")
+)
+
+
+def about(chance: random.Random) -> str:
+    """A condition, mostly of variables that loops set."""
+    return condition(chance) if chance.random() < 0.4 else chance.choice(ABOUT_SETS)
+
+
+def setting_loop(chance: random.Random, label: str) -> str:
+    """Jumps round and round, sets variables and calls subroutines on the way."""
+    kind, test, other = chance.randrange(8), about(chance), about(chance)
+    first, second = chance.choice(SETS), chance.choice(SETS)
+    if kind < 3:
+        return f"#{label};{first};JP#{label},{test}"
+    if kind == 3:
+        return f"#{label};{first};{second}\nJP#{label},{test}"
+    if kind == 4:
+        return f"#{label};JP#{label}e,{other}\n{first};{second}\nJP#{label},{test}\n#{label}e"
+    if kind == 5:
+        return f"#{label};JS#S{chance.randrange(4)};JP#{label},{test}"
+    if kind == 6:
+        return f"#{label};JS#S{chance.randrange(4)},{other}\n{first};JP#{label},{test}"
+    return f"{first};#{label};JS#S{chance.randrange(4)};{second};NO a\nJP#{label},{test}"
+
+
+def subroutines(chance: random.Random) -> list[str]:
+    """What the loops call: they return at once, set something, call each other, or wait themselves."""
+    sets = chance.choices(SETS, k=3)
+    return [
+        "#S0;EN",
+        f"#S1;{sets[0]};EN",
+        f"#S2;JS#S0;JP#S2e,{about(chance)}\n{sets[1]};#S2e;EN",
+        f"#S3;{sets[2]};JP#S3,{about(chance)}\nEN",
+    ]
+
+
 def condition(chance: random.Random) -> str:
     """Something that is true or not, and may change."""
     kind = chance.randrange(8)
@@ -89,11 +140,11 @@ def program(chance: random.Random) -> str:
         body = [f"#{name}"]
         for number in range(chance.randint(1, 4)):
             body += chance.choices(MOVES + DEEDS, weights=MOVES_FIRST, k=chance.randint(0, 3))
-            body.append(loop(chance, f"{name}{number}"))
+            body.append(chance.choice((loop, setting_loop))(chance, f"{name}{number}"))
         parts.append("\n".join([*body, chance.choice(("EN", f"JP#{name}"))]))
     routines = ("#LIMSWI;RE", "#POSERR;E=E+1;RE1", "#ININT;B=B+1;RI1", "#CMDERR;EN", "#MCTIME;EN", "#COMINT;EN0,1")
     parts += [routine for routine in routines if chance.random() < 0.4]
-    return "\n".join(parts)
+    return "\n".join([*parts, *subroutines(chance)])
 
 
 def facts(bench: Bench) -> Any:
@@ -136,7 +187,8 @@ def play(seed: int, *, leaping: bool, sliced: bool = False, compiled: bool | Non
     simulation.interpreter.idling.allowed = leaping
     simulation.motion.trace(4000)
     bench.load(
-        f"A=300;B=0;E=0;T0=0;DM V[9],W[9];II1{chance.choice(('', ';XQ#B,1', ';XQ#B,1;XQ#C,2'))}\n" + program(chance)
+        f"A=300;B=0;E=0;T0=0;C=0;D=0;F=0\nDM V[9],W[9];II1{chance.choice(('', ';XQ#B,1', ';XQ#B,1;XQ#C,2'))}\n"
+        + program(chance)
     )
     simulation.execute(0)
     seen = []
@@ -171,16 +223,55 @@ def test_the_compiled_and_the_plain_loop_run_programs_alike(block: int) -> None:
 FOREVER = 400_000  # commands of the runs below
 
 
-@pytest.mark.parametrize(
-    "condition", ["_BGX=1", "TIME<900000", "@IN[1]=1", "(_TPX<9000000)&(_BGX=1)", "_TVX>-1", "_TTX<9.9", "1"]
+CONDITIONS = ("_BGX=1", "TIME<900000", "@IN[1]=1", "(_TPX<9000000)&(_BGX=1)", "_TVX>-1", "_TTX<9.9", "1")
+LOOPS = (
+    "V=_TPX;JP#L,V<9000000",
+    "V=_TPX-1000;W=@ABS[V-50];JP#L,W<9000000",
+    "JS#S;JP#L,_BGX=1",
+    "JS#S,_BGX=1;NO a;JP#L",
+    "N=N+1;JP#L,_BGX=1",
+    "V=TIME-T0;W=@IN[1];JP#L,(V<900000)&(W=1)",
 )
-def test_a_waiting_loop_is_left_out(condition: str) -> None:
+
+
+@pytest.mark.parametrize("waiting", [f"JP#L,{each}" for each in CONDITIONS] + list(LOOPS))
+def test_a_waiting_loop_is_left_out(waiting: str) -> None:
     bench = Bench("ssc1")
-    bench.load(f"JG 10000;BGX;T0=0\n#L;JP#L,{condition}\nMG TIME\nEN")
+    bench.load(f"JG 10000;BGX;T0=0\n#L;{waiting}\nMG TIME\nEN\n#S;EN")
+    bench.ask("V=0;W=0;N=0")
     bench.simulation.execute(0)
     bench.simulation.advance(FOREVER * COMMAND)
     assert bench.simulation.interpreter.idling.left_out > 0.99 * FOREVER
-    assert bench.simulation.unit.state.threads[0].pc == 3
+    assert bench.simulation.unit.state.threads[0].running and bench.texts() == []
+
+
+@pytest.mark.parametrize(
+    ("moves", "waiting"),
+    [
+        ("PA 2000000;SP 1000;BGX", "JP#L,_PAX>1000"),
+        ("VM XY;VP 900000,0;VE;VS 2000;BGS", "JP#L,_AV<800000"),
+        ("VM XY;VP 900000,0;VE;VS 2000;BGS", "V=_AV;JP#L,V<800000"),
+    ],
+)
+def test_targets_and_ways_are_waited_for(moves: str, waiting: str) -> None:
+    bench = Bench("ssc2")
+    bench.load(f"V=0\n{moves}\n#L;{waiting}\nMG TIME\nEN")
+    bench.simulation.execute(0)
+    bench.simulation.advance(FOREVER * COMMAND)  # 200 s
+    assert bench.simulation.interpreter.idling.left_out > 0.99 * FOREVER
+    assert bench.simulation.unit.state.threads[0].running and bench.texts() == []
+
+
+def test_variables_hold_what_the_last_round_set() -> None:
+    # three commands of 512 ticks a round; a jog of 10 counts a sample of 1000 ticks
+    bench = Bench("ssc1")
+    bench.load("V=0;N=0;AC 67107840;JG 10240;BGX\n#L;V=_TPX;N=N+1;JP#L,V<100000\nMG V,N\nEN")
+    bench.simulation.execute(0)
+    bench.simulation.advance(12_000 * MS)
+    assert bench.simulation.interpreter.idling.left_out > 15_000
+    place, rounds = (float(word) for word in bench.texts()[0].split())
+    assert 100_000 <= place <= 100_000 + 20  # a round takes 1.5 samples
+    assert rounds == pytest.approx(place / 10 * 1000 / (3 * COMMAND), abs=5)
 
 
 def test_the_way_out_is_taken_at_its_tick() -> None:

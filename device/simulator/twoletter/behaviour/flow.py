@@ -163,7 +163,8 @@ def come_back(unit: Unit, thread: Thread, *, restore: bool) -> int:
             thread.wait = frame.wait
         else:
             unit.drop(frame.wait)
-    unit.changed = True
+    if frame.kind != "JS" or frame.wait is not None or len(thread.stack) + 1 >= unit.model.subroutine_levels:
+        unit.changed = True  # else nothing waits for this return: no wait goes on, and routines found room before
     return frame.pc
 
 
