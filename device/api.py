@@ -15,7 +15,7 @@ from device import commands, jog, live
 from device.asking import Listing, Prompt, Waiting
 from device.clock import Clock
 from device.commands import Reply
-from device.door import Door
+from device.door import Door, choose
 from device.download import Downloaded, DownloadFailed, Job, program_lines
 from device.hands import Io, Memory
 from device.happenings import Badge, Kind, Notice, NoticeKind, State
@@ -32,7 +32,7 @@ from device.stop import NO_ANSWER_S, Stopping, StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 from device.wire import Kind as AnswerKind
-from device.wire import Manners, Shape, nonces
+from device.wire import Manners, Prompts, Shape, nonces
 
 if TYPE_CHECKING:
     import numpy as np
@@ -258,7 +258,7 @@ class Controller:
             sequence=model is not None and model.coordinated,
             threads=model.threads if model is not None else 1,
             columns=model.columns if model is not None else 40,
-            chained=self.line.address is not None,
+            address=self.line.address,
             stopping_time_s=self.stopping_time_s,
             clock=self.clock,
             nonces=self.nonces,
@@ -320,18 +320,29 @@ class Controller:
             values += answer.values
         return tuple(values)
 
-    def run(self, steps: Steps[T], priority: Priority, source: str) -> Future[T]:
-        """Puts steps on the link."""
+    def run(self, steps: Steps[T], priority: Priority, source: str, *, address: bool = True) -> Future[T]:
+        """Puts steps on the link; in a daisy chain the address goes before them."""
         if self.state is State.OFFLINE:
             steps.close()
             future: Future[T] = Future()
             future.set_exception(LinkLost("Offline: there is no controller. Connect first."))
             return future
+        if address and self.line.address is not None:
+            steps = self._addressed(self.line.address, steps)
         return self.link.submit(steps, priority, source).future
+
+    def _addressed(self, address: int, steps: Steps[T]) -> Steps[T]:
+        """`%n` first: whoever talked on the line meanwhile may have chosen another (dmc-1412-1414.txt l.1305)."""
+        if not self.waiting.question:
+            choice = yield Send(choose(address), Prompts(1), 1.0)
+            if choice.kind is AnswerKind.SILENT:
+                steps.close()
+                raise LinkLost(f"No controller with address {address} answers in the chain.")
+        return (yield from steps)
 
     def answer(self, text: str) -> Future[None]:
         """Answers the question of the program that waits."""
-        return self.run(self._answer_steps(text), Priority.USER, "user")
+        return self.run(self._answer_steps(text), Priority.USER, "user", address=False)
 
     def _answer_steps(self, text: str) -> Steps[None]:
         self.link.clear_rest()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import lru_cache
 
@@ -13,6 +14,7 @@ REVISION = b"\x12\x16"
 LEAVE = b"\x11\x1b\x5c"  # leaves editor, data mode and download; nothing in command mode
 MASTER_RESET = b"\x12\x13"
 
+ADDRESSES = re.compile(rb"(?:^|;)[ ]*%[ ]*[0-9]")  # a line that chooses a controller of a daisy chain
 TELLS = frozenset(name for name, row in COMMANDS.items() if row.tells) - {"TC"}  # reading TC clears it
 LISTS = frozenset(["LS", "LL", "LV", "LA", "UL", "QU"])
 CONSUMING = frozenset(["P1ST", "P1NM", "P1CD", "P2ST", "P2NM", "P2CD"])  # reading a string or number clears its status
@@ -93,11 +95,16 @@ def _harmless(item: object) -> bool:
     return isinstance(item, nodes.Group) and _harmless(item.inner)
 
 
+def choose(unit: int) -> bytes:
+    """The line that says which controller of a daisy chain is talked to (dmc-1412-1414.txt l.1304)."""
+    return f"%{unit}\r".encode()
+
+
 class Door:
     """Decides for every send; the link asks it, and nothing leaves around it."""
 
     def __init__(self, unit: int | None = None) -> None:
-        self._choose_unit = f"%{unit}\r".encode() if unit is not None else b""  # ours on a daisy chain
+        self._choose_unit = choose(unit) if unit is not None else b""  # ours on a daisy chain
         self.control = False
         self.question = ""  # why only an answer may leave, in words
         self.resting: Callable[[], str] = lambda: ""  # why live reads rest now
@@ -119,6 +126,8 @@ class Door:
             return "Control-R control-S erases the controller's memory; it is sent only by its own confirmed action."
         if not self.control and not ends and data != self._choose_unit and not only_reads(data):
             return "Not sent: this is Watch. Take Control to move, set or download."
+        if b"%" in data and data != self._choose_unit and not stored and ADDRESSES.search(data):
+            return "Another address of a daisy chain is chosen where you connect: everything shown here is of this one."
         trippoint = "" if stored else waits(data)
         if trippoint:
             return f"{trippoint} typed here would hold this line, STOP included, until it trips; use it in a program."

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.models import MODELS, Model
+from device.door import choose
 from device.tasks import LinkLost, Send, Steps, Wait
 from device.wire import Answer, Frame, Kind, Prompts, Proof, Revision, Shape, framed
 
@@ -67,11 +68,11 @@ def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identit
     """Listens, then asks for the revision; where the text is unknown, counts the axes in the answer to TP."""
     yield Wait(LISTEN_S)
     if address is not None:
-        yield Send(f"%{address}\r".encode())
+        yield Send(choose(address), Prompts(1), timeout_s=1.0)
     text = yield from _revision()
     if not text:
         if (yield Send(b"\r", Prompts(1), timeout_s=1.0)).kind is Kind.SILENT:
-            raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
+            raise LinkLost(_nobody(address))
         text = yield from _revision()  # the answer was late or disturbed
     model = model_of(text)
     serial = yield from _serial(nonces)
@@ -79,8 +80,14 @@ def identify(nonces: Iterator[str], address: int | None = None) -> Steps[Identit
         return Identity(text, model, model.axes, serial)
     axes = yield from _count_axes(nonces)
     if not text and not axes:
-        raise LinkLost("Nothing that speaks two-letter code answers here; check speed, cable and power.")
+        raise LinkLost(_nobody(address))
     return Identity(text, None, axes, serial)
+
+
+def _nobody(address: int | None) -> str:
+    if address is not None:
+        return f"No controller with address {address} answers in the chain; check SA, CC, cables and power."
+    return "Nothing that speaks two-letter code answers here; check speed, cable and power."
 
 
 def _revision() -> Steps[str]:

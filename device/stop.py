@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from device.door import LEAVE
+from device.door import LEAVE, choose
 from device.tasks import Send, Steps, Wait
 from device.wire import Answer, Frame, Kind, Proof, Shape, fitting, framed
 
@@ -56,7 +56,7 @@ class Stopping:
     sequence: bool
     threads: int
     columns: int
-    chained: bool
+    address: int | None  # in a daisy chain: ours, which proves it
     stopping_time_s: float | None  # None: asked from the controller
     clock: Callable[[], float]
     nonces: Iterator[str]
@@ -68,7 +68,9 @@ class Stopping:
         """Ends with whether stillness was proved."""
         start = self.clock()
         self.heard = self.heard or start
-        yield Send(stop_bytes(self.command_mode, chained=self.chained, abort=self.abort), hold=True)
+        yield Send(stop_bytes(self.command_mode, chained=self.address is not None, abort=self.abort), hold=True)
+        if self.address is not None:
+            yield Send(choose(self.address), hold=True)
         halted = False
         while self.clock() - start < GIVE_UP_S:
             if not halted:
@@ -82,7 +84,7 @@ class Stopping:
                 self.stopping_time_s = yield from self._ask_stopping_time()
             if not self.abort and self.clock() - start > self.stopping_time_s + GRACE_S:
                 self.abort = True
-                yield Send(stop_bytes(False, chained=self.chained, abort=True), hold=True)
+                yield Send(stop_bytes(False, chained=self.address is not None, abort=True), hold=True)
         self.show(StopState.NOT_CONFIRMED)
         return False
 
@@ -98,7 +100,7 @@ class Stopping:
             self._answered()
             return True
         self._unanswered()
-        yield Send(stop_bytes(False, chained=self.chained, abort=self.abort), hold=True)
+        yield Send(stop_bytes(False, chained=self.address is not None, abort=self.abort), hold=True)
         return False
 
     def _ask_stopping_time(self) -> Steps[float]:
