@@ -8,6 +8,7 @@ import json
 import sys
 from pathlib import Path
 
+from app.cli import smartmotor
 from app.cli.failure import DONE, NO, Failure
 from app.cli.sources import errors_of, fitted, is_program, of_two_letters, read_document, readable, target, write_text
 from codegen.generate import Listing, generate
@@ -28,6 +29,10 @@ def compile(options: argparse.Namespace) -> int:
     output = target(options.output, path) if options.output else None
     where = target(options.map, path) if options.map else None
     document = read_document(path)
+    if (options.controller or document.setup.model) == smartmotor.MODEL:
+        if options.map:
+            raise Failure(f"{path}: a source map (--map) is not made for a SmartMotor yet")
+        return _written(smartmotor.source_of(document, path), output)
     of_two_letters(document.setup.model, path)
     if options.controller:
         document = fitted(document, None, options.controller, path)
@@ -42,7 +47,10 @@ def compile(options: argparse.Namespace) -> int:
         return NO
     if where:
         write_text(where, source_map(listing))
-    text = listing.text if listing.text.endswith("\n") else listing.text + "\n"
+    return _written(listing.text if listing.text.endswith("\n") else listing.text + "\n", output)
+
+
+def _written(text: str, output: Path | None) -> int:
     if output:
         write_text(output, text)
     else:

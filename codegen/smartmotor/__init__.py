@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from codegen.smartmotor.emit import CANNOT, EMITTERS, lines
+from codegen.smartmotor.emit import CANNOT, EMITTERS, NotYet, lines
 
-__all__ = ["CANNOT", "EMITTERS", "lines"]
+__all__ = ["CANNOT", "EMITTERS", "NotYet", "lines"]
