@@ -289,8 +289,8 @@ def visible(dialog: QWidget) -> bool:
 
 
 def action_of(studio: Studio, name: str) -> QAction:
-    """The action of a row."""
-    return studio.actions[name]
+    """The action of a row, the program window's own ones included."""
+    return studio.program.commands.get(name) or studio.actions[name]
 
 
 def menu_of(studio: Studio, action: QAction) -> tuple[QMenu, QAction]:

@@ -69,6 +69,11 @@ class Buttons(QWidget):
             button.setChecked(key in keys)
             button.blockSignals(False)
         self.group.setExclusive(exclusive)
+        if exclusive:  # Tab stops at the word that is on, arrows reach the others
+            stop = self.focus_target()
+            for button in self.buttons.values():
+                policy = Qt.FocusPolicy.StrongFocus if button is stop else Qt.FocusPolicy.ClickFocus
+                button.setFocusPolicy(policy)
 
     def _walk(self, key: Any, by: int) -> None:
         """The neighbour takes the focus; where only one can be on, it goes on."""

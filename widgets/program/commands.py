@@ -43,7 +43,7 @@ COMMANDS = (
     CommandRow("move_down", "Move down", "Alt+Down", "down", "Moves the steps one place down"),
     CommandRow("fold_all", "Fold all", "Alt+Left", "up", "Hides what subroutines and repeats hold", False),
     CommandRow("unfold_all", "Unfold all", "Alt+Right", "down", "Shows what subroutines and repeats hold", False),
-    CommandRow("end_of_repeat", "End of repeat", "Ctrl+Return", "loop", "New steps go behind the repeat again"),
+    CommandRow("end_of_repeat", "End of repeat", "Ctrl+Return", "loop", "New steps go behind the repeat again", False),
     CommandRow("find_text", "Find…", "Ctrl+F", "search", "Finds words in the English and the code", False),
     CommandRow("replace_text", "Replace…", "Ctrl+H", "", "Replaces names, numbers and notes you typed", False),
     CommandRow("find_next", "Find next", "F3", "", "The next step that holds what was searched", False),

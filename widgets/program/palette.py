@@ -141,7 +141,8 @@ class Palette(QWidget):
             if event.key() in (Qt.Key.Key_Down, Qt.Key.Key_Up):
                 self._walk(1 if event.key() == Qt.Key.Key_Down else -1)
                 return True
-            if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            control = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)  # Ctrl+Enter: End of repeat
+            if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and not control:
                 current = self.tree.currentItem()
                 if current is not None:
                     self.search.clear()
