@@ -7,6 +7,7 @@ from __future__ import annotations
 import dataclasses as dc
 from functools import lru_cache
 
+from codegen.handover import Handover
 from codegen.instructions import LoopRate
 from codegen.numbers import parse_number
 from codegen.program import Program
@@ -21,6 +22,7 @@ class Document:
     setup: Setup = Setup()
     stimulus: str = ""
     notes: str = ""
+    handover: Handover = Handover()
     compact: bool = False  # several statements a line from the start
 
     @property

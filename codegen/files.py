@@ -17,6 +17,7 @@ from typing import Any, NoReturn, TypeVar
 
 from codegen.document import Document
 from codegen.fields import AXES, NONE, Choice, Flag, ListOf, PerAxis, fields_of, is_shown
+from codegen.handover import Handover
 from codegen.instructions import ALL, Instruction
 from codegen.models import MODELS
 from codegen.program import Program, Section, Step, Steps
@@ -52,6 +53,7 @@ def dumps(document: Document) -> str:
             "setup": _setup_data(document.setup),
             "stimulus": document.stimulus.split("\n") if document.stimulus else [],
             "notes": document.notes.split("\n") if document.notes else [],
+            **({"handover": dc.asdict(document.handover)} if document.handover != Handover() else {}),
         }
     )
 
@@ -268,8 +270,16 @@ def _document(data: Mapping[str, Any]) -> Document:
         setup=_setup(setup),
         stimulus=_lines(data, "stimulus"),
         notes=_lines(data, "notes"),
+        handover=_handover(data.get("handover", {})),
         compact=data.get("compact") is True,
     )
+
+
+def _handover(data: Any) -> Handover:
+    names = [field.name for field in dc.fields(Handover)]
+    if not isinstance(data, dict) or not data.keys() <= set(names):
+        raise _Wrong(f"its handover has more than {', '.join(names)}", '"handover"')
+    return Handover(**{name: _text(data, name) for name in names})
 
 
 def _text(data: Mapping[str, Any], name: str) -> str:

@@ -16,6 +16,7 @@ from codegen.conversion import CALIBRATED_US
 from codegen.document import Document
 from codegen.drift import Sums, closes_a_loop, drift, jump_drift
 from codegen.fields import SYSTEM_LABELS, Choice, fields_of
+from codegen.handover import first_line
 from codegen.instructions import End, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
 from codegen.program import Program, Section, Step, is_closed, program_label
@@ -100,7 +101,7 @@ class _Pass:
     """The last pass: walks the steps, numbers what is generated, and collects lines and problems."""
 
     def __init__(self, document: Document) -> None:
-        self.program = document.program
+        self.program, self.handover = document.program, document.handover
         self.setup = document.working_setup
         self.lines: list[Line] = []
         self.problems: list[Finding] = []
@@ -137,6 +138,8 @@ class _Pass:
     def run(self) -> None:
         self.problems += [finding for finding in setup_problems(self.setup) if finding.severity == "error"]
         label = program_label(self.program, self.raw_labels)
+        if stamp := first_line(self.handover, self.program.name, self.setup.limits):
+            self.lines.append(Line(stamp))
         if self.program.auto:
             self.lines.append(Line("#AUTO"))
         self.lines.append(Line(f"#{label}"))
