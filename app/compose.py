@@ -17,6 +17,7 @@ from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
 from app.files import Files
+from app.folding import Folding
 from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.importing import Importing
@@ -84,6 +85,7 @@ class Studio(QObject):
         self.jog, self.values = JogPanel(clock=clock), ValuesPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
+        self.folding = Folding(self.session, self.program, settings, self)
         self.importing = Importing(self.session, self.desk.ask, self.window)
         self.right = RightMachine(self.connection, self.session, self.desk.ask)
         self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)

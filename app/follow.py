@@ -56,6 +56,7 @@ class Follow(QObject):
         self._actions, self._window = actions, window
         self._watched: object = None
         self._stop = StopState.NO_LINK
+        self._lost = False
         self.known = Facts()  # as of the last look
 
     def look(self) -> None:
@@ -70,7 +71,15 @@ class Follow(QObject):
         self._window.run_bar.show_held(self._run.held() if online else None)
         self._window.status.progress.show_job(self._run.doing, self._run.job)
         self._watch()
+        self._say_lost()
         self._status(controller.last())
+
+    def _say_lost(self) -> None:
+        """What was said last is not so any more on a line that is lost."""
+        controller, before = self._connection.controller, self._lost
+        self._lost = controller.state is State.LOST
+        if self._lost and not before:
+            self._window.status.say(controller.state_text)
 
     def _show_question(self) -> None:
         """What the program asks; what was asked when STOP was pressed is not answered any more."""

@@ -66,6 +66,7 @@ ROWS = (
     Row("known_models", dict, {}, "Known controllers",
         "Types of controllers that do not name themselves, by serial number."),
     Row("recent_files", list, [], "Recent programs", "Programs opened last, newest first."),
+    Row("folded", dict, {}, "Folded", "What is folded in the programs opened last, by file."),
     Row("layout", str, "Program", "Layout", "Arrangement of the panels.", ("Program", "Run", "Own")),
     Row("window", dict, {}, "Window", "Place, size and arrangement of the panels."),
     Row("look_at_start", bool, True, "Look for a controller at start",

@@ -133,6 +133,17 @@ class ProgramTree(QTableView):
             if node.kind == 1:
                 self._model.fold(node.id, folded)
 
+    def folded_names(self) -> list[str]:
+        """What is folded, also out of sight."""
+        return [node.id for node in self._model.root.walk() if node.folded and node.children]
+
+    def fold_only(self, names: Sequence[str]) -> None:
+        """Folds these and unfolds everything else; names of nothing that folds are left aside."""
+        wanted = frozenset(names)
+        for node in list(self._model.root.walk()):
+            if node.parent is not None and node.children:
+                self.fold(node.id, node.id in wanted)
+
     def arrow_of(self, node: Node) -> QRect:
         """Where the arrow stands that folds a row."""
         row = self.visualRect(self._model.index(node.line, ENGLISH))
