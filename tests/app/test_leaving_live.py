@@ -24,7 +24,7 @@ from app.studio import begin
 from device.api import Kind, State
 from device.simulator.process import SimulatorProcess
 from tests.app.hands import Mouse, live, shown, until
-from tests.long import count
+from tests.long import count, record
 from widgets.connect.serial_setup import SerialSetup
 
 BAUD = 19_200
@@ -191,6 +191,7 @@ def test_leaving_asks_when_the_machine_works_and_only_then(hands: Mouse, machine
         else:
             come_back(hands, machine)
     assert len(deck) == rounds
+    record("leaving asks exactly when the machine works", "pytest tests/app/test_leaving_live.py", 7, rounds, "rounds")
 
 
 def test_stop_and_leave_leaves_a_machine_at_rest(hands: Mouse, machine: SimulatorProcess) -> None:

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QDialog, QWidget
 
-from tests.long import count
+from tests.long import count, record
 from tests.rig import Rig
 from tests.stage import Stage
 
@@ -59,6 +59,7 @@ def test_a_random_clicker_sends_nothing_but_reads_and_stop(stage: Stage, seed: i
         assert rig.program == LISTING.split("\n")
         assert rig.simulation.state()["outputs"] == 0
     assert [text for text in stage.studio.messages.texts() if text.startswith("Not ")] == []  # nor was it asked to
+    record("random clicks in Watch, nothing but reads sent", "pytest tests/app/test_watch.py", None, 60, "", add=True)
 
 
 def test_the_clicker_would_notice(stage: Stage) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.app.wild import Wild
-from tests.long import count
+from tests.long import count, record
 from tests.stage import Stage
 
 STEPS = count(120, 600)
@@ -30,5 +30,6 @@ def test_whatever_is_done_the_studio_stays_up(stage: Stage, tmp_path: Path, seed
     finally:
         wild.end()
         studio.crash.uninstall()
+    record("random work on the studio, no fault", "pytest tests/app/test_wild.py", None, STEPS, "steps", add=True)
     kinds = {line.split()[0] for line in wild.done if line.split()}
     assert {"click", "act", "add", "write", "press_key", "command", "happen"} <= kinds

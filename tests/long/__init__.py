@@ -20,8 +20,11 @@ def count(short: int, long: int) -> int:
     return long if is_long() else short
 
 
-def record(name: str, command: str, seed: int | None, figure: float, unit: str) -> None:
-    """Notes one measured figure for the table of results; does nothing outside a run that collects them."""
+def record(name: str, command: str, seed: int | None, figure: float, unit: str, *, add: bool = False) -> None:
+    """Notes one measured figure for the table of results; does nothing outside a run that collects them.
+
+    Figures that are to `add` come from several tests of a run and are summed.
+    """
     folder = os.environ.get("TWOLETTER_FIGURES")
     if not folder:
         return
@@ -32,6 +35,7 @@ def record(name: str, command: str, seed: int | None, figure: float, unit: str) 
         "figure": round(float(figure), 4),
         "unit": unit,
         "date": datetime.date.today().isoformat(),
+        **({"add": True} if add else {}),
     }
     with (Path(folder) / f"{os.getpid()}.jsonl").open("a", encoding="utf-8") as file:
         file.write(json.dumps(row) + "\n")
@@ -42,9 +46,12 @@ def collect(folder: Path, results: Path = RESULTS) -> list[dict[str, object]]:
     known: dict[str, dict[str, object]] = {}
     if results.exists():
         known = {row["name"]: row for row in json.loads(results.read_text(encoding="utf-8"))}
+    sums: dict[str, float] = {}
     for part in sorted(folder.glob("*.jsonl")):
         for line in part.read_text(encoding="utf-8").splitlines():
             row = json.loads(line)
+            if row.pop("add", False):
+                row["figure"] = sums[row["name"]] = sums.get(row["name"], 0) + row["figure"]
             known[row["name"]] = row
     rows = [known[name] for name in sorted(known)]
     results.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

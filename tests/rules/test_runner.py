@@ -41,6 +41,16 @@ def test_figures_are_collected_and_the_newest_stays(tmp_path: Path, monkeypatch:
     assert rows[0]["figure"] == 250.1235 and rows[0]["seed"] == 7 and json.loads(results.read_text()) == rows
 
 
+def test_figures_of_many_tests_are_added_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TWOLETTER_FIGURES", str(tmp_path))
+    results = tmp_path / "results.json"
+    results.write_text(json.dumps([{"name": "seeds", "figure": 900}]))
+    for steps in (100, 20, 3):
+        record("seeds", "pytest", None, steps, "steps", add=True)
+    (row,) = collect(tmp_path, results)
+    assert row["figure"] == 123 and "add" not in row
+
+
 def test_counts_are_short_unless_the_run_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("TWOLETTER_LONG", raising=False)
     assert count(10, 1000) == 10

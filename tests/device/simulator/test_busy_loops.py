@@ -11,7 +11,7 @@ import pytest
 from device.simulator.plant import Plant
 from device.simulator.times import COMMAND
 from tests.device.simulator.bench import MS, Bench
-from tests.long import count
+from tests.long import count, record
 
 PLANTS = {
     "X": Plant(viscous_friction=0.001, home_switch=(900.0, 1000.0), index_at=137.0, forward_limit=9000.0),
@@ -211,6 +211,8 @@ def test_leaving_out_changes_nothing(block: int) -> None:
         if seed % 5 == 0:
             assert leaping == play(seed, leaping=True, sliced=True)[0], f"seed {seed}, sliced"
     assert left_out > 100 * each  # else the comparison would say nothing
+    here = "pytest tests/device/simulator/test_busy_loops.py"
+    record("programs with waiting loops, left out or not the same", here, None, each, "programs", add=True)
 
 
 @pytest.mark.parametrize("block", range(2))

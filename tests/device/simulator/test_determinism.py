@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from tests.device.simulator.bench import Bench
-from tests.long import count
+from tests.long import count, record
 
 PROGRAM = """
 #A
@@ -159,3 +159,5 @@ def fuzz(seed: int, slices: bool) -> Any:
 @pytest.mark.parametrize("seed", range(count(12, 2000)))
 def test_any_program_runs_the_same_in_any_slices(seed: int) -> None:
     assert fuzz(seed, slices=True) == fuzz(seed, slices=False)
+    here = "pytest tests/device/simulator/test_determinism.py"
+    record("random programs, the same in any slices", here, None, 1, "programs", add=True)
