@@ -89,6 +89,7 @@ def revision(session: Session) -> Seen:
     if found is None:
         raise Odd(f"it names itself {session.named!r}")
     yield "revision", found.group(1)
+    yield "copyright", session.talk.ask("CW")
     yield "serial_number", int(session.talk.number("_BN", "F10.0"))
 
 
@@ -123,6 +124,10 @@ def arrays(session: Session) -> Seen:
     if not reply.accepted:
         raise reply.odd()
     yield "array_end", _end(reply.data[:-1], empty=False)
+    with session.kept("VF"):
+        talk.do("VF 3.1")
+        shown = talk.line(f"QU {name}[],0,0,1").text
+        yield "array_format", "VF" if re.match(r" ?\d{3}\.\d(?!\d)", shown) else "10.4"
     yield "dimension_again_code", talk.refusal(f"DM {name}[2]")
     yield "codes.56", talk.refusal(f"MG {name}[99]")
     free = int(re.sub(r"\D", "", talk.ask("DM ?")))

@@ -18,6 +18,7 @@ class Path:
 
     def __init__(self, state: State, parts: Sequence[State]) -> None:
         self._state, self._parts = state, parts
+        self.turns_back = False  # TN: the angle jumps back by a turn beyond 180 degrees
         self.set_speed(25000.0)
         self.set_acceleration(256000.0)
         self.set_deceleration(256000.0)
@@ -192,6 +193,8 @@ class Path:
         state = self._state
         if state[layout.PATH_HEADING_KNOWN]:
             heading += 360.0 * round((state[layout.PATH_HEADING] - heading) / 360.0)
+        if self.turns_back:
+            heading -= 360.0 * round(heading / 360.0)
         state[layout.PATH_HEADING], state[layout.PATH_HEADING_KNOWN] = heading, 1.0
         scale, zero = state[layout.PATH_TANGENT_SCALE], state[layout.PATH_TANGENT_ZERO]
         return {layout.G_TANGENT: zero + scale * heading, layout.G_TANGENT_SLOPE: scale * slope}

@@ -25,10 +25,12 @@ class LineSettings:
     array_end: str = fact(
         "^Z", "sent by QU after the last element", "recall", choices=("^Z", "^Z CR LF", "CR LF", "nothing")
     )
+    array_format: str = fact("VF", "format of the elements that QU sends", "inferred", choices=("VF", "10.4"))
     typed_message_marked: bool = fact(
         False, "CW1 sets bit 7 also where MG was typed at the port", "inferred (asked for with --cw only)", rows=("CW",)
     )
     revision: str = fact("Rev 2.0h", "second half of the answer to ^R^V", "inferred (form known)", rows=("^R^V",))
+    copyright: str = fact("TWOLETTER STUDIO SIMULATED CONTROLLER", "what CW alone tells", "inferred (form known)")
     serial_number: int = fact(1, "what _BN tells", "recall", high=2**31 - 1)
     data_mode_alone: bool = fact(
         False,

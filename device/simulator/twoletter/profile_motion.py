@@ -160,6 +160,13 @@ class MotionSettings(LanguageSettings):
         choices=("error 30", "left out"),
         unseen=SEQUENCE,
     )
+    tangent_turns: str = fact(
+        "unwrapped",
+        "TN: the angle goes on beyond 180 degrees, or jumps back by a turn",
+        "inferred",
+        choices=("unwrapped", "within half a turn"),
+        unseen=MOTION,
+    )
     segment_speed_stays: bool = fact(
         True, "the speed < n of a segment holds for those behind it", "inferred", unseen=MOTION
     )

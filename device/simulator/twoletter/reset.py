@@ -109,6 +109,7 @@ def _start_motion(unit: Unit, motors_on: list[bool]) -> None:
         registers.follow_profile(unit, axis)
     motion.cam.master(0, auxiliary=unit.model.family != "ssc")
     motion.set_limit_polarity(state.switches[0] == 1)
+    motion.path.turns_back = unit.profile.tangent_turns != "unwrapped"
     motion.set_outputs(state.outputs)
     if unit.model.commutation:
         motion.commutation.enable(0, state.brushless)

@@ -17,7 +17,7 @@ from device.transport.loopback import Loopback
 from tests.long import is_long
 
 NUMBERS = {"line_characters": 60, "serial_number": 4711, "labels": 200, "bracket_levels": 7}
-TEXTS = {"revision": "Rev 1.0i"}
+TEXTS = {"revision": "Rev 1.0i", "copyright": "COPYRIGHT 1998"}
 FORMATS = {name: row.reply for name, row in COMMANDS.items() if row.reply not in (None, "PF")}
 LIMITS = [("TW", 32766), ("TW", 40000), ("VA", 1024000), ("VA", 68431872), ("VR", 5), ("VR", 20)]
 LIMITS += [("FA", 4095), ("FA", 16000), ("FV", 2047), ("FV", 20000)]

@@ -383,3 +383,25 @@ def test_data_mode_of_port_1_needs_a_program() -> None:
         bench.wait(300)  # the program has ended
         assert bench.type("NO\r") == ("" if alone else ":")
         assert bench.type("\x1bNO\r") == ":"
+
+
+def test_the_tangent_beyond_a_turn() -> None:
+    # a full circle twice, two counts a degree: 720 degrees on, or back to where one turn begins
+    for turns, end in (("unwrapped", 90 + 720), ("within half a turn", 90 + 360)):
+        bench = bench_with("ssc4", tangent_turns=turns)
+        bench.type("VS 20000;VM XYZ;TN 2,0;CR 500,0,360;CR 500,0,360;VE\r")
+        bench.type("PA ,,180;SP ,,8000;BG Z\r", 500)  # _TN: where the first segment begins, 90 degrees
+        bench.type("BGS\r", 2000)
+        assert bench.ask("SC Z") == "101"
+        assert bench.position(2) == 2 * end
+
+
+def test_the_format_of_qu() -> None:
+    for rule, shown in (("VF", " 002.0"), ("10.4", " 0000000002.0000")):
+        bench = bench_with(array_format=rule)
+        bench.type("DM A[1];A[0]=2;VF 3.1\r")
+        assert bench.type("QU A[]\r").startswith(shown + "\r\n")
+
+
+def test_the_copyright() -> None:
+    assert bench_with(copyright="C 1999").ask("CW") == "C 1999"

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
 Op: TypeAlias = Callable[[Strand], int]
-COPYRIGHT: Final = "TWOLETTER STUDIO SIMULATED CONTROLLER"
 
 
 def number_format(unit: Unit, strand: Strand, call: Call) -> None:
@@ -61,7 +60,7 @@ def port_two(unit: Unit, strand: Strand, call: Call) -> None:
 def copyright_text(unit: Unit, strand: Strand, call: Call) -> None:
     """CW: the copyright text; CW n,m decides about bit 7 and about a full FIFO (dmc-1412-1414.txt l.1333)."""
     if not call.command.arguments:
-        unit.answer(strand, COPYRIGHT)
+        unit.answer(strand, unit.profile.copyright)
         return
     fields = call.row.fields_for(unit.model)
     given = [(place, value) for place, value in enumerate(call.values[:2]) if value is not None]

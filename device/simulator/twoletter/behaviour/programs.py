@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from codegen.twoletter.evaluate import compile_expression
 from codegen.twoletter.fixed import ONE
-from codegen.twoletter.nodes import Axes, Command, Dimension, Empty, Expression, Target
+from codegen.twoletter.nodes import Axes, Command, Dimension, Empty, Expression, Format, Target
 from device.simulator.twoletter import editor, memory
 from device.simulator.twoletter.state import CommandError, Download, Port, Strand
 
@@ -145,7 +145,8 @@ def upload_array(command: Command, following: int, unit: Unit, code: Code | None
 
     def op(strand: Strand) -> int:
         array, first, last, commas = _range(unit, name, numbers)
-        values = [unit.formatted(value, None) for value in array[first : last + 1]]
+        form = None if unit.profile.array_format == "VF" else Format("F", 10, 4)
+        values = [unit.formatted(value, form) for value in array[first : last + 1]]
         text = (",".join(values) if commas else "\r\n".join(values)) + "\r\n"
         data = text.encode("latin-1") + unit.profile.array_upload_end
         if isinstance(strand, Port):
