@@ -7,13 +7,17 @@ from importlib import metadata
 from widgets.connect.welcome import DANGER
 
 
+def version() -> str:
+    """Of this studio, as it is installed."""
+    try:
+        return metadata.version("twoletter-studio")
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
 def about_words() -> str:
     """The text of Help > About."""
-    try:
-        version = metadata.version("twoletter-studio")
-    except metadata.PackageNotFoundError:
-        version = "not installed"
     return (
-        f"Version {version}. MIT licence.\n\n"
+        f"Version {version()}. MIT licence.\n\n"
         f"Programs, jogs and tunes one to four axes with controllers that speak two-letter code.\n\n{DANGER}"
     )
