@@ -16,6 +16,7 @@ from codegen.numbers import looks_like_number, number_problem, parse_number
 
 LONGEST = 20000  # rows; more than any controller holds
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(,\d{3})+\Z", re.ASCII)
+_GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}((,\d{3})+(\.\d*)?|(\.\d{3})+,\d+)\Z", re.ASCII)  # 1,234.5 or 1.234,5
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+\Z", re.ASCII)
 
 
@@ -62,14 +63,21 @@ def read_pasted(text: str) -> Grid | BadTable:
     first = [cell.strip() for cell in lines[0].split(mark)] if len(lines) > 1 else []
     headings = 1 if any(first) and all(map(_is_heading, filter(None, first))) else 0
     commas = [line.strip() for line in lines[headings:] if "," in line] if mark == "," else []
-    if commas and all(map(_DECIMAL_COMMA.match, commas)):
+    if commas and all(_DECIMAL_COMMA.match(line) or _GROUPED.match(line) for line in commas):
         row = next(number for number, line in enumerate(lines) if line.strip() == commas[0])
-        point = commas[0].replace(",", ".")
+        point = _with_point(commas[0])
         return BadTable(
             f"row {row + 1}: '{commas[0]}' can be one number or two; write {point}, or part the cells with tabs or ;",
             row,
         )
     return _read(text, headings)
+
+
+def _with_point(text: str) -> str:
+    """The one number that was probably meant."""
+    if text.rfind(".") > text.rfind(",") or text.count(",") > 1:
+        return text.replace(",", "")
+    return text.replace(".", "").replace(",", ".")
 
 
 def _is_heading(cell: str) -> bool:
@@ -97,6 +105,8 @@ def _read(text: str, headings: int) -> Grid | BadTable:
         )
     except _Wrong as wrong:
         return wrong.problem
+    if mark != "," and (mixed := _both_signs(rows, headings)):
+        return mixed
     uneven = next((number for number, row in enumerate(cells) if len(row) != len(cells[0])), None)
     if uneven is not None:
         row, first = uneven + headings, headings + 1
@@ -104,6 +114,18 @@ def _read(text: str, headings: int) -> Grid | BadTable:
             f"row {row + 1} has {len(cells[uneven])} cells, row {first} has {len(cells[0])}", row, len(cells[uneven])
         )
     return Grid(cells)
+
+
+def _both_signs(rows: Sequence[Sequence[str]], headings: int) -> BadTable | None:
+    """Where commas are decimal signs a point parts thousands: `1.234` beside `2,5` may be 1234."""
+    if not any(_DECIMAL_COMMA.match(cell.strip()) for row in rows for cell in row):
+        return None
+    for number, row in enumerate(rows, headings):
+        for place, cell in enumerate(row):
+            if "." in cell:
+                words = f"'{cell.strip()}' has a point, other cells have a comma; write all of them with a point"
+                return BadTable(f"row {number + 1}, cell {place + 1}: {words}", number, place)
+    return None
 
 
 def separator(lines: Sequence[str]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QLocale, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -106,6 +106,7 @@ class OptionsPage(QDialog):
             tick.toggled.connect(lambda on: self.changed.emit(option.key, on))
             return tick
         number = QDoubleSpinBox()
+        number.setLocale(QLocale.c())  # a point, whatever the system writes
         number.setRange(option.low, option.high)
         number.setDecimals(1)
         number.lineEdit().setTextMargins(6, 0, 0, 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QDoubleSpinBox,
@@ -151,6 +151,7 @@ class SimulatorPanel(Panel):
         self.volts = {}
         for number in range(1, count + 1):
             label, slider, box = QLabel(str(number)), QSlider(Qt.Orientation.Horizontal), QDoubleSpinBox()
+            box.setLocale(QLocale.c())
             box.setRange(-10.0, 10.0)
             box.setSingleStep(0.1)
             box.setSuffix(" V")
@@ -174,6 +175,7 @@ class SimulatorPanel(Panel):
         self.pushes, self.buttons = {}, {}
         for row, letter in enumerate(letters):
             box, button = QDoubleSpinBox(), QPushButton(f"Push {letter}")
+            box.setLocale(QLocale.c())  # a point, whatever the system writes
             box.setRange(-1_000_000, 1_000_000)
             box.setDecimals(0)
             box.setValue(100)
