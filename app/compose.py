@@ -32,6 +32,7 @@ from app.session import Session
 from app.settings import Settings
 from app.setup_desk import SetupDesk
 from app.setup_file import last_setup
+from app.setup_limits import SetupLimits
 from app.start import Start
 from app.stop_key import StopKey
 from app.talk import Talk
@@ -89,8 +90,10 @@ class Studio(QObject):
         self.importing = Importing(self.session, self.desk.ask, self.window)
         self.right = RightMachine(self.connection, self.session, self.desk.ask)
         self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)
+        self.limits = SetupLimits(self.connection, self.session, self.tick, self.desk.ask, self)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.proof = BackupPart(self.connection, self.run, self.session, self.desk.ask, data, self.window)
+        self.run.before_start = self.limits.careful
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.variables = Variables(self.connection, self.tick, self.values, self.desk.ask, self.files.folder, self)
@@ -211,6 +214,8 @@ class Studio(QObject):
         self.proof.backups.act.connect(lambda name: self.actions[name].trigger())
         for said in (
             self.files.said,
+            self.setup.said,
+            self.limits.said,
             self.importing.said,
             self.run.said,
             self.start.said,

@@ -68,6 +68,7 @@ class Run(QObject):
         self.doing = ""
         self._now = now
         self.before: Before = _at_once
+        self.before_start: Callable[[Callable[[], object]], object] = lambda go_on: go_on()
         self._under_way: Future[Any] | None = None
         self._last: Sent | None = None  # under way, or sent last, of the program that is open
         self._sent: Sent | None = None  # verified
@@ -139,6 +140,10 @@ class Run(QObject):
             self._ask(f"Execute at {percent} % of the speed?", slow_words(held, percent), [(words, answer)], "warning")
 
     def run_in_controller(self) -> None:
+        """Starts it, once the limits of the setup are settled."""
+        self.before_start(self._start)
+
+    def _start(self) -> None:
         """XQ of the program's label if a verified listing of it is in the controller, else of line 0."""
         controller, held = self._connection.controller, self.held()
         same = controller.program_badge is Badge.SAME

@@ -11,7 +11,7 @@ from codegen.fields import Context, fields_of
 from codegen.models import Model
 from codegen.numbers import shown
 from codegen.setup import Setup
-from codegen.setup_registers import GAIN, OF_FIELD, REGISTERS, Register, Value, factory
+from codegen.setup_registers import GAIN, OF_FIELD, REGISTERS, Register, Value, factory, limit_registers
 from codegen.twoletter.calls import by_axis
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE
@@ -204,6 +204,12 @@ def loop_words(setup: Setup, readings: Readings) -> str:
         f"The controller's loop takes {shown(Fraction(found, ONE), 7)} µs, the setup says {shown(setup.sample, 7)} µs: "
         "its speeds and accelerations are others than they look here."
     )
+
+
+def stated_limits(setup: Setup) -> frozenset[Key]:
+    """What the setup states of what protects the machine."""
+    names = {each.command for each in limit_registers()}
+    return frozenset(key for key in stated(setup) if key[0] in names)
 
 
 def cautions(lines: Collection[Line]) -> Iterator[str]:

@@ -58,6 +58,11 @@ def read_setup(c: Controller) -> Future[Reading]:
     return c.run(reading_steps(c), Priority.USER, "user")
 
 
+def read_registers(c: Controller, keys: Collection[Key]) -> Future[Readings]:
+    """As `read_setup`, of these registers only."""
+    return c.run(_registers(c, keys), Priority.USER, "user")
+
+
 def send_setup(c: Controller, setup: Setup, lines: Collection[Line]) -> Job[Sent]:
     """Sends these lines, each proved, and reads everything again."""
     job: Job[Sent] = Job()
@@ -85,6 +90,13 @@ def reading_steps(c: Controller) -> Steps[Reading]:
         "".join(axis for axis, off in zip(model.axes, motors, strict=True) if off == 0),
         tuple(text for key, text in wanted.items() if key not in found),
     )
+
+
+def _registers(c: Controller, keys: Collection[Key]) -> Steps[Readings]:
+    model = _known(c, "Not read")
+    wanted = {key: text for key, text in expressions(model).items() if key in keys}
+    values = yield from exact(c.nonces, list(wanted.values()), model.columns)
+    return {key: value for key, value in zip(wanted, values, strict=True) if value is not None}
 
 
 def sending_steps(c: Controller, setup: Setup, lines: Collection[Line], job: Job[Sent]) -> Steps[Sent]:

@@ -145,6 +145,7 @@ def running(stage: Stage, kind: str) -> None:
         line = LineSettings(baud=19200)
         rig = stage.connect(kind, studio.model(), line=line)
         stage.download()
+        rig.type("OE 1")  # as in the setup: nothing is asked
         studio.run.execute()
     stage.until(lambda: rig.simulation.state()["axes"]["X"]["commanded"] > 1500)
     moment = stage.clock.now

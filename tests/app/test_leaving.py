@@ -287,7 +287,7 @@ def test_an_edit_during_the_download_does_not_shift_the_marks(stage: Stage) -> N
 
 def test_another_document_carries_no_marks_of_the_program_that_runs(stage: Stage) -> None:
     stage.connect("machine", "ssc1")
-    stage.download()
+    stage.download().type("OE 1")  # as in the setup: nothing is asked
     stage.rig.simulation.stimulus("in1", 0)
     stage.studio.run.execute()
     stage.until(lambda: bool(stage.studio.program.delegate.executing))

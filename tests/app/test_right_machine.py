@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.right_machine import TITLE
+from codegen.twoletter.fixed import ONE
 from device.api import Badge
 from tests.rig import Rig
 from tests.stage import Stage
@@ -33,6 +34,7 @@ def machine(stage: Stage, model: str = "", kind: str = "machine", serial: int = 
     rig.simulation.unit.profile = dc.replace(profile, serial_number=serial)
     stage.until(lambda: rig.controller.polling)
     rig.controller.take_control()
+    rig.simulation.unit.state.registers["OE"] = [ONE] * len(rig.simulation.model.axes)  # the limits of the setup
     stage.go()
     return rig
 

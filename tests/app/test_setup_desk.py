@@ -262,6 +262,7 @@ def test_what_was_chosen_is_sent_after_its_risks_were_told(stage: Stage) -> None
     stage.until(lambda: register(rig, "KP") == 20 and register(rig, "OE") == 1)
     assert register(rig, "OE", 1) == 0  # not chosen
     assert kept(stage).axis("X").kp == "20" and not window.isVisible()
+    stage.until(lambda: stage.studio.messages.texts()[-1] == "2 values sent and read back; nothing is burned.")
     assert "BN" not in " ".join(rig.lines).replace("_BN", "")
 
 
@@ -334,6 +335,7 @@ def test_write_to_eeprom_says_what_the_next_power_up_does_and_burns_then(stage: 
     click(stage, question.buttons["Write to EEPROM"])
     stage.until(lambda: rig.simulation.unit.eeprom.part("parameters") is not None)
     assert rig.simulation.unit.eeprom.part("parameters")["registers"]["KP"][0] == 33 * ONE
+    stage.until(lambda: "after the next power-up" in stage.studio.messages.texts()[-1])
     assert window.isVisible()
 
 

@@ -6,10 +6,12 @@ import dataclasses as dc
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from codegen.setup import Setup
 from codegen.setup_differences import Key
+from widgets.form.room import settle
 
 
 @dc.dataclass(frozen=True)
@@ -49,6 +51,13 @@ class Page(QWidget):
         """Shows a setup; what is being typed stays where the cursor is."""
         self.shown = shown
         self.refresh(shown)
+        if self.isVisible():
+            settle(self.inside)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Words that take several lines know their height only once the page has its width."""
+        super().showEvent(event)
+        settle(self.inside)
 
     def refresh(self, shown: Shown) -> None:
         """Brings every editor and word up to date."""
