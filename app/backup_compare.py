@@ -17,10 +17,10 @@ from app.connection import Connection
 from app.facts import Facts
 from app.run import Run
 from app.session import Session
-from codegen.difference_report import Held, report
+from codegen.difference_report import Held, Report, report
 from codegen.difference_values import wanted
 from codegen.twoletter.slow_mark import FULL
-from device.api import Controller, Job
+from device.api import Controller, Job, Kind
 from device.backing_up import backup_steps
 from device.backup import Backup
 from device.backup_burned import keyed
@@ -87,6 +87,15 @@ class Comparing(QObject):
         if all(one is other for one, other in zip(shown, self._shown, strict=False)) and self._shown:
             return
         self._shown = shown
+        window.show_report(self._report())
+
+    def proof(self) -> tuple[str, ...]:
+        """What is known now, in sentences; nothing while nothing is connected."""
+        return self._report().summary if self._connection.controller.kind is not Kind.OFFLINE else ()
+
+    def _report(self) -> Report:
+        controller, document = self._connection.controller, self._session.document
+        read = self._read if self._read is not None and self._read[0] is controller else None
         known = controller.listing if not controller.doubt else None
         held = Held(
             program=self._eeprom.told(known) if known is not None else None,
@@ -94,8 +103,7 @@ class Comparing(QObject):
             variables=read[1].variables if read is not None else None,
             percent=self._run.held().percent if known is not None else FULL,
         )
-        found = report(lines_of(document), wanted(document.setup), held, self._eeprom.known, document.setup)
-        window.show_report(found)
+        return report(lines_of(document), wanted(document.setup), held, self._eeprom.known, document.setup)
 
     def _found(self, controller: Controller, future: Future[Any]) -> None:
         self._read = (controller, future.result(), f"{self._now():%H:%M}")

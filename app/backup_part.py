@@ -11,12 +11,15 @@ from PySide6.QtCore import QObject, Signal
 from app.backup_before import Keeping
 from app.backup_compare import Comparing
 from app.backup_eeprom import Eeprom
+from app.backup_handover import Handing
 from app.backups import Backups
 from app.connection import Connection
 from app.facts import Facts
 from app.run import Ask, Run
 from app.session import Session
+from app.tick import Tick
 from app.window import Window
+from widgets.program.view import ProgramView
 
 
 class BackupPart(QObject):
@@ -31,6 +34,8 @@ class BackupPart(QObject):
         session: Session,
         ask: Ask,
         data: Path,
+        tick: Tick,
+        program: ProgramView,
         window: Window,
         now: Callable[[], datetime] = datetime.now,
     ) -> None:
@@ -40,9 +45,10 @@ class BackupPart(QObject):
         self.eeprom = Eeprom(connection, run, session, data, now, self)
         self.backups = Backups(connection, run, self.keeping, ask, window)
         self.comparing = Comparing(connection, run, session, self.eeprom, window, now)
+        self.handing = Handing(connection, session, tick, program, window, self.comparing.proof, now)
         run.before = self.keeping.before
         self._bar.badge.clicked.connect(self.comparing.show)
-        for part in (self.keeping, self.eeprom, self.backups):
+        for part in (self.keeping, self.eeprom, self.backups, self.handing):
             part.said.connect(self.said)
 
     def look(self, facts: Facts) -> None:
@@ -50,4 +56,5 @@ class BackupPart(QObject):
         self.eeprom.look()
         self.backups.look(facts)
         self.comparing.look(facts)
+        self.handing.look()
         self._bar.show_eeprom(self.eeprom.same_as_controller, self.eeprom.words)

@@ -92,7 +92,9 @@ class Studio(QObject):
         self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)
         self.limits = SetupLimits(self.connection, self.session, self.tick, self.desk.ask, self)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
-        self.proof = BackupPart(self.connection, self.run, self.session, self.desk.ask, data, self.window)
+        self.proof = BackupPart(
+            self.connection, self.run, self.session, self.desk.ask, data, self.tick, self.program, self.window
+        )
         self.run.before_start = self.limits.careful
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
@@ -162,6 +164,7 @@ class Studio(QObject):
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
             **{f"execute_{each}": partial(run.execute_slowly, each) for each in PERCENTS},
             "compare": self.proof.comparing.show, "backups": self.proof.backups.show,
+            "handover": self.proof.handing.show, "print_pack": self.proof.handing.show_pack,
             "stop": self.connection.stop, "help": desk.help_for_focus,
             "about": self._about,
         }  # fmt: skip

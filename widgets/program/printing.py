@@ -8,7 +8,17 @@ from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import QMarginsF, QRectF, QSizeF, Qt, QUrl, Signal
-from PySide6.QtGui import QDesktopServices, QPageLayout, QPageSize, QPainter, QPaintEvent, QPdfWriter, QTextDocument
+from PySide6.QtGui import (
+    QColor,
+    QDesktopServices,
+    QFont,
+    QPageLayout,
+    QPageSize,
+    QPainter,
+    QPaintEvent,
+    QPdfWriter,
+    QTextDocument,
+)
 from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from codegen.document import Document
@@ -35,7 +45,12 @@ p, td { font-size: 9pt; } td { padding: 1pt 6pt 1pt 0; } .quiet { color: #555555
 
 def program_pages(document: Document, words: Words, date: str) -> QTextDocument:
     """Every step in English beside its code, section by section."""
-    parts = [_heading(document, date)]
+    return make_pages(f"{_heading(document, date)}{program_html(document, words)}", document)
+
+
+def program_html(document: Document, words: Words) -> str:
+    """Every step in English beside its code."""
+    parts = []
     for section in Section:
         steps = document.program.section(section)
         if steps:
@@ -43,14 +58,19 @@ def program_pages(document: Document, words: Words, date: str) -> QTextDocument:
             parts.append(f"<h2>{TITLES[section.value]}</h2><table width='100%' cellspacing='0'>")
             parts += _rows(steps, words, 0)
             parts.append("</table>")
-    return _pages("".join(parts))
+    return "".join(parts)
 
 
 def code_pages(document: Document, words: Words, date: str) -> QTextDocument:
     """The two-letter code with its line numbers, as the controller counts them."""
+    return make_pages(f"{_heading(document, date)}{code_html(words)}", document)
+
+
+def code_html(words: Words) -> str:
+    """The lines with their numbers."""
     listing = words.listing.lines if words.listing is not None else ()
     lines = "".join(f"{number:>4}  {escape(line.text)}\n" for number, line in enumerate(listing))
-    return _pages(f"{_heading(document, date)}<pre style='white-space: pre-wrap'>{lines}</pre>")
+    return f"<pre style='white-space: pre-wrap'>{lines}</pre>"
 
 
 def _heading(document: Document, date: str) -> str:
@@ -80,11 +100,15 @@ def _rows(steps: Steps, words: Words, depth: int) -> Iterator[str]:
         yield from _rows(step.body, words, depth + 1)
 
 
-def _pages(html: str) -> QTextDocument:
+def make_pages(html: str, document: Document) -> QTextDocument:
+    """Pages of paper; name and revision stand on top of each."""
     pages = QTextDocument()
     pages.setDefaultStyleSheet(STYLE)
     pages.setDocumentMargin(MARGIN)
     pages.setHtml(html)
+    revision = f", revision {document.handover.revision}" if document.handover.revision else ""
+    title = f"{document.program.name or 'Program'}{revision}"
+    pages.setMetaInformation(QTextDocument.MetaInformation.DocumentTitle, title)  # setHtml clears it
     pages.setPageSize(PAGE)
     return pages
 
@@ -98,8 +122,34 @@ def write_pdf(pages: QTextDocument, path: Path) -> str:
     writer = QPdfWriter(str(path))
     writer.setPageLayout(_layout())
     writer.setResolution(RESOLUTION)
-    pages.print_(writer)
+    painter = QPainter()
+    if not painter.begin(writer):
+        return f"{path.name} cannot be written"
+    scale = writer.width() / PAGE.width()
+    painter.scale(scale, scale)
+    for number in range(pages.pageCount()):
+        if number:
+            writer.newPage()
+        draw_page(painter, pages, number)
+    painter.end()
     return ""
+
+
+def draw_page(painter: QPainter, pages: QTextDocument, number: int) -> None:
+    """One page with its header and its number, at the painter's origin."""
+    painter.save()
+    painter.translate(0, -number * PAGE.height())
+    pages.drawContents(painter, QRectF(0, number * PAGE.height(), PAGE.width(), PAGE.height()))
+    painter.restore()
+    font = QFont(pages.defaultFont())
+    font.setPointSizeF(8)
+    painter.setFont(font)
+    painter.setPen(QColor("#555555"))
+    left, right = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
+    line = QRectF(MARGIN, MARGIN / 2, PAGE.width() - 2 * MARGIN, 20)
+    painter.drawText(line, left, pages.metaInformation(QTextDocument.MetaInformation.DocumentTitle))
+    line.moveTop(PAGE.height() - MARGIN / 2 - 20)
+    painter.drawText(line, right, f"Page {number + 1} of {pages.pageCount()}")
 
 
 def _layout() -> QPageLayout:
@@ -127,8 +177,7 @@ class Sheets(QWidget):
             painter.save()
             painter.translate(0, number * step)
             painter.fillRect(QRectF(0, 0, PAGE.width(), PAGE.height()), Qt.GlobalColor.white)
-            painter.translate(0, -number * PAGE.height())
-            self._pages.drawContents(painter, QRectF(0, number * PAGE.height(), PAGE.width(), PAGE.height()))
+            draw_page(painter, self._pages, number)
             painter.restore()
 
 
