@@ -44,6 +44,7 @@ class Register:
     motor_off: bool = False  # may only be sent with the motor off
     drives: Literal["any", "servo", "stepper"] = "any"
     ceiling: bool = False
+    protects: bool = False  # one of the System Limits (ssc-tol-o-motion.txt), or a maximum
 
     @property
     def title(self) -> str:
@@ -201,12 +202,14 @@ SINKS = "{axis} has less force from now on; a vertical axis may sink"
 REGISTERS: tuple[Register, ...] = (
     Register("MT", ("motor",), _motor_stated, _motor_told, RUNS_AWAY, motor_off=True),
     Register("CE", ("main_encoder", "aux_encoder"), _encoder_stated, _encoder_told, RUNS_AWAY, motor_off=True),
-    Register("ER", ("error_limit",), *_measured("error_limit", Dimension.ERROR), MAY_STOP, drives="servo"),
-    Register("OE", ("off_on_error",), _off_stated, _off_told, MAY_STOP, drives="servo"),
-    Register("TL", ("torque_limit",), *_plain("TL", "torque_limit"), SINKS, drives="servo"),
-    Register("FL", ("forward_limit",), *_travel("forward_limit", LARGEST, floor)),
-    Register("BL", ("reverse_limit",), *_travel("reverse_limit", -LARGEST - 1, ceil)),
-    Register("IL", ("integrator_limit",), *_plain("IL", "integrator_limit"), SINKS, drives="servo"),
+    Register(
+        "ER", ("error_limit",), *_measured("error_limit", Dimension.ERROR), MAY_STOP, drives="servo", protects=True
+    ),
+    Register("OE", ("off_on_error",), _off_stated, _off_told, MAY_STOP, drives="servo", protects=True),
+    Register("TL", ("torque_limit",), *_plain("TL", "torque_limit"), SINKS, drives="servo", protects=True),
+    Register("FL", ("forward_limit",), *_travel("forward_limit", LARGEST, floor), protects=True),
+    Register("BL", ("reverse_limit",), *_travel("reverse_limit", -LARGEST - 1, ceil), protects=True),
+    Register("IL", ("integrator_limit",), *_plain("IL", "integrator_limit"), SINKS, drives="servo", protects=True),
     Register("KP", ("kp",), *_plain("KP", "kp"), OSCILLATES, drives="servo"),
     Register("KI", ("ki",), *_plain("KI", "ki", 7), OSCILLATES, drives="servo"),
     Register("KD", ("kd",), *_plain("KD", "kd"), OSCILLATES, drives="servo"),
@@ -215,9 +218,21 @@ REGISTERS: tuple[Register, ...] = (
     Register("OF", ("offset",), *_plain("OF", "offset"), OSCILLATES, drives="servo"),
     Register("IT", ("smoothing",), _smooth_stated, _smooth_told, drives="servo"),
     Register("KS", ("smoothing",), *_plain("KS", "smoothing"), drives="stepper"),
-    Register("SP", ("maximum_speed",), *_ceiling("maximum_speed", Dimension.SPEED), ceiling=True),
-    Register("AC", ("maximum_acceleration",), *_ceiling("maximum_acceleration", Dimension.ACCELERATION), ceiling=True),
-    Register("DC", ("maximum_acceleration",), *_ceiling("maximum_acceleration", Dimension.ACCELERATION), ceiling=True),
+    Register("SP", ("maximum_speed",), *_ceiling("maximum_speed", Dimension.SPEED), ceiling=True, protects=True),
+    Register(
+        "AC",
+        ("maximum_acceleration",),
+        *_ceiling("maximum_acceleration", Dimension.ACCELERATION),
+        ceiling=True,
+        protects=True,
+    ),
+    Register(
+        "DC",
+        ("maximum_acceleration",),
+        *_ceiling("maximum_acceleration", Dimension.ACCELERATION),
+        ceiling=True,
+        protects=True,
+    ),
 )
 BY_COMMAND: Mapping[str, Register] = {each.command: each for each in REGISTERS}
 OF_FIELD: Mapping[str, tuple[Register, ...]] = {
@@ -225,9 +240,8 @@ OF_FIELD: Mapping[str, tuple[Register, ...]] = {
     for name in dict.fromkeys(name for each in REGISTERS for name in each.fields)
 }
 GAIN = "GN"  # read only: ssc-tol-o-motion.txt l.1584, "not used for current version of controller"
-LIMITS = ("ER", "OE", "TL", "FL", "BL", "IL")  # ssc-tol-o-motion.txt, System Limits
 
 
 def limit_registers() -> tuple[Register, ...]:
     """What protects the machine: travel, following error, force, top speed and acceleration."""
-    return tuple(each for each in REGISTERS if each.ceiling or each.command in LIMITS)
+    return tuple(each for each in REGISTERS if each.protects)
