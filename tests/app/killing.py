@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses as dc
 import os
 import random
+import select
 import signal
 import sys
 import time
@@ -95,7 +96,8 @@ def one(folder: Path, autosave_ms: int, chance: random.Random) -> tuple[float, b
         finally:
             os._exit(1)
     os.close(writing)
-    time.sleep(chance.uniform(0.02, 0.05 + 2.5 * autosave_ms / 1000))
+    select.select([reading], [], [], 20)  # it lives: the first edit is made
+    time.sleep(chance.uniform(0, 0.05 + 2.5 * autosave_ms / 1000))
     os.kill(child, signal.SIGKILL)
     killed = time.monotonic()
     _, status = os.waitpid(child, 0)
