@@ -46,13 +46,14 @@ def title_of(text: str) -> str:
 
 def generated() -> dict[str, str]:
     """Every written page by its file: one for each instruction, the commands by group, error and stop codes, keys."""
+    from app import help_tables
     from codegen.docs import pages
 
     files = {f"instructions/{_file(title)}": text for title, text in pages().items()}
     for group in dict.fromkeys(row.group for row in COMMANDS.values()):
         text = _commands_page(group)
         files[f"reference/{_file(title_of(text))}"] = text
-    for text in (_codes_page(), _keys_page()):
+    for text in (_codes_page(), _keys_page(), *help_tables.pages().values()):
         files[f"reference/{_file(title_of(text))}"] = text
     return files
 
@@ -107,11 +108,14 @@ def _limits(row: Row) -> list[str]:
 
 
 def _codes_page() -> str:
-    errors = "\n".join(f"| {code} | {text} |" for code, text in sorted(ERROR_TEXTS.items()))
-    stops = "\n".join(f"| {code} | {text} |" for code, text in sorted(STOP_TEXTS.items()))
-    head = "| code | meaning |\n|---|---|\n"
+    from app.help_tables import advice
+
+    errors = "\n".join(f"| {code} | {text} | {advice('error', code)} |" for code, text in sorted(ERROR_TEXTS.items()))
+    stops = "\n".join(f"| {code} | {text} | {advice('stop', code)} |" for code, text in sorted(STOP_TEXTS.items()))
+    head = "| code | meaning | what to do |\n|---|---|---|\n"
     return (
-        "# Error and stop codes\n\nWhat TC tells after a refused command (`?`) or when a program has stopped:\n\n"
+        "# Error and stop codes\n\nWhat TC tells after a refused command (`?`) or when a program has stopped. "
+        "What has no code stands under [Troubleshooting](page:Troubleshooting).\n\n"
         f"{head}{errors}\n\n## Stop codes\n\nWhat SC tells of an axis:\n\n{head}{stops}\n"
     )
 
