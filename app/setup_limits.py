@@ -31,6 +31,12 @@ class Moment:
     controller: Controller
     document: Document
     listing: str | None
+    traffic: int  # the last line that had gone over the wire
+
+    @property
+    def was_stopped(self) -> bool:
+        """Whether STOP was pressed since: then nothing starts any more."""
+        return any(each.source == "stop" for each in self.controller.traffic(self.traffic))
 
 
 class SetupLimits(QObject):
@@ -66,10 +72,14 @@ class SetupLimits(QObject):
 
     def _now(self) -> Moment:
         controller = self._connection.controller
-        return Moment(controller, self._session.document, controller.listing)
+        lines = controller.traffic()
+        return Moment(controller, self._session.document, controller.listing, lines[-1].number if lines else 0)
 
     def _is_still(self, then: Moment) -> bool:
         """Whether what was looked at is still what would start; says so when it is not."""
+        if then.was_stopped:
+            self.said.emit("Not started: STOP was pressed.")
+            return False
         now = self._now()
         same = now.controller is then.controller and now.document is then.document and now.listing == then.listing
         if not same:
