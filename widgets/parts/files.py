@@ -12,6 +12,7 @@ PROGRAMS = "Programs (*.tlp)"
 CODE = "Two-letter code (*.dmc)"
 SETUPS = "Setups (*.tls)"
 PICTURES = "Pictures (*.png)"
+LOGS = "Logs (*.log *.txt)"
 
 
 def ask_open(

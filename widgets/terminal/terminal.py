@@ -1,25 +1,22 @@
-"""A simple terminal: typed commands, their replies, the reason behind a `?`, and what the program says unasked."""
+"""The terminal: typed commands, their replies, the reason behind a `?`, and what the program says unasked."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QShowEvent, QTextCharFormat, QTextCursor
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPlainTextEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent, QTextCharFormat, QTextCursor
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
+from codegen.twoletter.complete import names_of
+from codegen.twoletter.parse import parse
 from device.api import Kind, NoticeKind
 from widgets.panel import Panel, set_text, show_role
+from widgets.parts.files import LOGS, ask_save
 from widgets.parts.look import look
+from widgets.terminal.command_line import CommandLine
+from widgets.terminal.diary import Diary
 
 if TYPE_CHECKING:
     from device.api import Controller, Notice, Reply, Row, Traffic
@@ -34,6 +31,7 @@ STYLES = {
     "poll": ("quiet", "· "),
     "note": ("quiet", "  "),
 }
+CLEARING = ("\x1b[2J\x1b[H", "\x1b[2J", "\x1bE", "\x0c")  # of an ANSI terminal, of a TERM-1500, of a printer
 WATCHING = "Watch sends what only reads (TP, MG _TPX, KP ?); for the rest: Control, Ctrl+T."
 
 
@@ -46,19 +44,21 @@ class TerminalPanel(Panel):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._typed: list[str] = []
-        self._at = 0
         self._seen = 0
-        self.log, self.line = QPlainTextEdit(), QLineEdit()
+        self._known: tuple[object, ...] = ()
+        self.diary = Diary()
+        self.log, self.line = QPlainTextEdit(), CommandLine()
         self.send, self.clear = QPushButton("Send"), QPushButton("Clear")
+        self.keep = QPushButton("Log to file…")
         self.traffic = QCheckBox("Show live reads")
         self.traffic.setProperty("role", "field")
-        self.why = QLabel()
+        self.why, self.help = QLabel(), QLabel()
         self._lay_out()
-        self.line.returnPressed.connect(self._send)
-        self.send.clicked.connect(self._send)
+        self.line.typed.connect(self._typed)
+        self.line.help_changed.connect(self._show_help)
+        self.send.clicked.connect(self.line.send)
         self.clear.clicked.connect(self.log.clear)
-        self.line.installEventFilter(self)
+        self.keep.clicked.connect(self._keep)
         self._at_end = True  # nobody has scrolled up to read
         bar = self.log.verticalScrollBar()
         bar.rangeChanged.connect(lambda _, most: bar.setValue(most) if self._at_end else None)
@@ -74,6 +74,12 @@ class TerminalPanel(Panel):
         if controller is None:
             return
         self._allow(why_not(controller), not controller.control)
+        known = (controller.model, controller.listing)
+        if known != self._known:
+            self._known = known
+            if controller.model is not None:
+                names = names_of(parse(controller.listing or "").lines, controller.model)
+                self.line.show_names(controller.model, names)
         if self.traffic.isChecked():
             for entry in controller.traffic(self._seen):
                 self._seen = entry.number
@@ -81,7 +87,7 @@ class TerminalPanel(Panel):
 
     def notice(self, notice: Notice) -> None:
         if notice.kind is NoticeKind.MESSAGE:
-            self.write("said", notice.text)
+            self._said(notice.text)
         elif notice.kind is NoticeKind.FAULT:
             self.write("refused", notice.text)
         elif notice.kind in (NoticeKind.IDENTIFIED, NoticeKind.LOST, NoticeKind.CONNECTED):
@@ -104,6 +110,7 @@ class TerminalPanel(Panel):
     def write(self, style: str, text: str) -> None:
         """Adds a line in the colour and with the sign of its style."""
         token, sign = STYLES[style]
+        self.diary.add(sign.strip() or "=", text.rstrip("\r\n"))
         shape = QTextCharFormat()
         shape.setForeground(look().colour(token))
         cursor = self.log.textCursor()
@@ -127,26 +134,43 @@ class TerminalPanel(Panel):
         bar = self.log.verticalScrollBar()
         bar.setValue(bar.maximum())
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Up and down bring back earlier lines."""
-        if watched is self.line and isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
-            step = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}.get(Qt.Key(event.key()))
-            if step is not None and self._typed:
-                self._at = min(max(0, self._at + step), len(self._typed))
-                self.line.setText(self._typed[self._at] if self._at < len(self._typed) else "")
-                return True
-        return super().eventFilter(watched, event)
+    def _said(self, text: str) -> None:
+        """What the program says; a command to clear the screen clears it (ssc-tol-o-motion.txt, Clear Screen)."""
+        for code in CLEARING:
+            if code in text:
+                self.log.clear()
+                text = text.rpartition(code)[2]
+        if text.strip():
+            self.write("said", text)
 
-    def _send(self) -> None:
-        text = self.line.text().strip()
-        if not text or not self.line.isEnabled():
-            return
-        if not self._typed or self._typed[-1] != text:
-            self._typed.append(text)
-        self._at = len(self._typed)
-        self.line.clear()
-        self.write("typed", text)
-        self.command.emit(text)
+    def _typed(self, text: str) -> None:
+        if self.line.isEnabled():
+            self.write("typed", text)
+            self.command.emit(text)
+
+    def _show_help(self, words: str) -> None:
+        set_text(self.help, words)
+        self.help.setVisible(bool(words))
+
+    def _keep(self) -> None:
+        """Begins the log, or ends it."""
+        if self.diary.open:
+            self.diary.end()
+            self._show_keeping()
+        else:
+            proposed = Path.home() / "terminal.log"
+            ask_save(self.window(), "Log to file", LOGS, self.keep_in, proposed, "log")
+
+    def keep_in(self, path: Path) -> None:
+        """Every line goes into this file as well, from now on."""
+        self.diary.begin(path)
+        self._show_keeping()
+
+    def _show_keeping(self) -> None:
+        self.keep.setText("End log" if self.diary.open else "Log to file…")
+        self.keep.setToolTip(f"Writing {self.diary.path}" if self.diary.open else "")
+        if self.diary.problem:
+            self.write("note", self.diary.problem)
 
     def _allow(self, reason: str, watching: bool = False) -> None:
         """`watching`: what only reads may be typed; the controller's door decides what that is."""
@@ -177,12 +201,17 @@ class TerminalPanel(Panel):
         foot, column = QHBoxLayout(), QVBoxLayout(self)
         foot.setSpacing(8)
         foot.addWidget(self.line, 1)
-        for widget in (self.send, self.traffic, self.clear):
+        for widget in (self.send, self.traffic, self.keep, self.clear):
             foot.addWidget(widget)
         column.setContentsMargins(8, 0, 8, 4)
         column.setSpacing(4)
         column.addWidget(self.log, 1)
         column.addWidget(self.why)
+        self.help.setTextFormat(Qt.TextFormat.RichText)
+        self.help.setWordWrap(True)
+        self.help.setProperty("role", "quiet")
+        self.help.hide()
+        column.addWidget(self.help)
         column.addLayout(foot)
 
 
