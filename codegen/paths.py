@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from codegen.setup import Setup
 
 Point = tuple[float, ...]
+SHARPEST = 1.0  # degrees a join may turn without being a corner
 Coordinate = Fraction | str | None  # a number, an expression as typed, or not known
 
 
@@ -70,9 +71,10 @@ def in_axes(start: float, sweep: float, flips: tuple[bool, bool]) -> tuple[float
     return start, sweep
 
 
-def legs(path: Any, setup: Setup | None = None) -> Legs:
-    """The segments of a path instruction, from its own (0, 0) or, where it goes on, from a place not known here."""
-    known: list[Coordinate] = [None if path.continues else Fraction(0)] * len(path.axes)
+def legs(path: Any, setup: Setup | None = None, start_at: tuple[Coordinate, ...] = ()) -> Legs:
+    """The segments of a path instruction, from its own (0, 0); where it goes on, from a place known or not."""
+    begins: Coordinate = None if path.continues else Fraction(0)
+    known: list[Coordinate] = list(start_at) if start_at else [begins] * len(path.axes)
     in_steps = str(getattr(path, "measured", "points")) == "steps"
     found: list[Leg] = []
     unknown: list[int] = []
@@ -129,10 +131,12 @@ def _after_arc(start: tuple[Coordinate, ...], arc: Arc | None) -> tuple[Coordina
 # ------------------------------------------------------------------------ corners
 
 
-def turns_of(path: Any, setup: Setup | None = None) -> list[tuple[Point | None, Point | None]]:
+def turns_of(
+    path: Any, setup: Setup | None = None, start_at: tuple[Coordinate, ...] = ()
+) -> list[tuple[Point | None, Point | None]]:
     """The direction (unit vector) in which each segment begins and ends; None where it is not known."""
     found: list[tuple[Point | None, Point | None]] = []
-    for leg, row in zip(legs(path, setup).legs, path.segments, strict=True):
+    for leg, row in zip(legs(path, setup, start_at).legs, path.segments, strict=True):
         if leg.arc is not None:
             turn = math.copysign(90.0, leg.arc.sweep)
             found.append((_heading(leg.arc.start + turn), _heading(leg.arc.start + leg.arc.sweep + turn)))
@@ -194,20 +198,37 @@ class Drawn:
 
 def path_of(path: Any, setup: Setup) -> tuple[Drawn, ...]:
     """A path in a plane as far as plain numbers tell; nothing of a path of one, three or four axes."""
-    if len(path.axes) != 2:
-        return ()
-    sharp = dict(corners(turns_of(path, setup), 1.0))
-    found: list[Drawn] = []
-    for number, leg in enumerate(legs(path, setup).legs):
+    return chain((path,), setup)[0]
+
+
+def chain(paths: Sequence[Any], setup: Setup) -> tuple[tuple[Drawn, ...], ...]:
+    """Path instructions that go on with each other, each as far as plain numbers tell."""
+    found: list[tuple[Drawn, ...]] = []
+    start: tuple[Coordinate, ...] = ()
+    heading: Point | None = None
+    for path in paths:
+        if len(path.axes) != 2:
+            found.append(())
+            continue
+        turns = turns_of(path, setup, start)
+        sharp = dict(corners([(None, heading), *turns], SHARPEST))
+        parts = legs(path, setup, start)
+        found.append(tuple(_drawn(parts, {number - 1: angle for number, angle in sharp.items()})))
+        start = parts.legs[-1].end if parts.legs else start
+        heading = turns[-1][1] if turns else heading
+    return tuple(found)
+
+
+def _drawn(parts: Legs, sharp: dict[int, float]) -> Iterator[Drawn]:
+    for number, leg in enumerate(parts.legs):
         points = (*leg.start, *leg.end)
         if not all(isinstance(each, Fraction) for each in points):
-            break
+            return
         x, y, to_x, to_y = (float(each) for each in points if isinstance(each, Fraction))
         arc, corner = leg.arc, sharp.get(number, 0.0)
         if arc is None:
-            found.append(Drawn((x, y), (to_x, to_y), corner=corner))
+            yield Drawn((x, y), (to_x, to_y), corner=corner)
             continue
         angle = math.radians(arc.start)
         centre = (x - arc.radius * math.cos(angle), y - arc.radius * math.sin(angle))
-        found.append(Drawn((x, y), (to_x, to_y), centre, arc.radius, arc.start, arc.sweep, corner))
-    return tuple(found)
+        yield Drawn((x, y), (to_x, to_y), centre, arc.radius, arc.start, arc.sweep, corner)

@@ -26,12 +26,11 @@ from codegen.fields import (
     value_of,
 )
 from codegen.instructions.instruction import Instruction
-from codegen.paths import corners, legs, turns_of
+from codegen.paths import SHARPEST, corners, legs, turns_of
 from codegen.setup import Setup
 
 LONGEST_ARC = 450_000_000  # radius in counts times sweep in degrees (commands.md 7)
 WIDEST_SCALE = 65535  # ES (commands.md, coordinated)
-SHARP = 1.0  # degrees; a join that turns by more is a corner
 
 
 class Shape(StrEnum):
@@ -127,9 +126,10 @@ class Piece:
         Choice(
             label="Direction",
             kind=Turn,
-            words={Turn.CCW: "counter-clockwise", Turn.CW: "clockwise"},
+            words={Turn.CCW: "CCW", Turn.CW: "CW"},
+            phrases={Turn.CCW: "counter-clockwise", Turn.CW: "clockwise"},
             when=_ARC,
-            help="Which way round the arc goes.",
+            help="Which way round the arc goes: CCW counter-clockwise, CW clockwise.",
         ),
         Turn.CCW,
     )
@@ -287,7 +287,7 @@ class InAPlane(OnAPath):
 
 def corner_advice(path: Instruction, setup: Setup) -> tuple[str, str] | None:
     """Says where the path turns sharply at full speed."""
-    found = corners(turns_of(path, setup), SHARP)
+    found = corners(turns_of(path, setup), SHARPEST)
     if not found:
         return None
     number, angle = found[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Iterator, Mapping
+from functools import partial
 from itertools import groupby, pairwise
 from typing import Any
 
@@ -13,7 +14,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWi
 
 from codegen import fields, read
 from widgets.form.cell import Cell, focus_in
-from widgets.form.editors import AXIS_EDITORS, EDITORS, LineEditor, choice_list, in_little_room, maker_for
+from widgets.form.editors import AXIS_EDITORS, EDITORS, NUMBER_WIDTH, LineEditor, choice_list, in_little_room, maker_for
 from widgets.form.grid_editor import GridEditor
 from widgets.form.judge import judge_of
 from widgets.form.offers import Offers
@@ -22,6 +23,7 @@ from widgets.parts.look import look
 
 SILENT = (fields.Flag, fields.Choice, fields.AxisName, fields.ListOf)  # seldom wrong: no line is kept free
 COLUMNS = 3  # of a table of axes
+TIGHT_WIDTH = 124  # px, of a number where fields stand side by side
 AXIS_SETS = ("axes", "slaves")  # names of the fields that say which axes take part
 MOST_ROWS = 12  # a form that is longer has its last fields beside the others
 Key = tuple[str, str]  # field name, axis letter ("" for a field that is not per axis)
@@ -32,9 +34,12 @@ class FieldsForm(QWidget):
 
     edited = Signal(object)
 
-    def __init__(self, offers: Offers, *, narrow: bool = False, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, offers: Offers, *, narrow: bool = False, dense: bool = False, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
         self.offers = offers
+        self.dense = dense  # beside others, where height is dear
         self.narrow = narrow  # labels above their fields, lists instead of rows of buttons
         self.item: Any = None
         self.tight = False  # no line is kept free below the fields
@@ -153,7 +158,7 @@ class FieldsForm(QWidget):
         beside.setContentsMargins(0, 0, 0, 0)
         beside.setSpacing(16)
         columns = _columns(fields.fields_of(self.item), self.narrow)
-        self.tight = len(columns) > 1
+        self.tight = self.dense or len(columns) > 1
         for members in columns:
             self.grid = QGridLayout()
             self.grid.setContentsMargins(0, 0, 0, 0)
@@ -258,6 +263,8 @@ class FieldsForm(QWidget):
         cell.changed.connect(lambda value: self._changed(name, axis, value))
         line = getattr(editor, "line", editor)
         if isinstance(line, LineEditor):
+            if self.tight and line.maximumWidth() == NUMBER_WIDTH:
+                line.setFixedWidth(TIGHT_WIDTH)
             line.judge = lambda: judge_of(self.item, name, axis, self.path, self.offers.setup)
         self.cells[name, axis] = cell
         return cell
@@ -283,7 +290,7 @@ class FieldsForm(QWidget):
 def make_editor(field: fields.Field, offers: Offers, *, narrow: bool = False) -> QWidget:
     """The editor for a field that stands alone."""
     if isinstance(field, fields.ListOf):
-        return RowsEditor(field, offers, lambda offers: FieldsForm(offers, narrow=narrow), narrow=narrow)
+        return RowsEditor(field, offers, partial(FieldsForm, narrow=narrow), narrow=narrow)
     if narrow and isinstance(field, fields.Choice):
         return in_little_room(choice_list(field))
     if narrow and isinstance(field, fields.Table):

@@ -13,6 +13,7 @@ from widgets.form.command_list import CommandList
 from widgets.form.curve_picture import CurvePicture
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
+from widgets.form.path_picture import PathPicture
 from widgets.form.pictures import PICTURES
 from widgets.form.preview import Preview
 from widgets.form.rows import RowsEditor
@@ -74,6 +75,7 @@ class InstructionForm(QWidget):
 
     edited = Signal(object)
     refreshed = Signal()  # whatever is shown now, problems and all
+    mirror_wanted = Signal(str)  # the axis that pictures of paths are to show the other way round
 
     def __init__(self, offers: Offers, *, grows: bool = True, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -142,6 +144,8 @@ class InstructionForm(QWidget):
             return
         if offers.setup != before.setup:  # the form was built anew
             self._show_picture(self.instruction)
+        elif isinstance(self.picture, PathPicture):
+            self.picture.show_offers(offers)
         self._refresh()
 
     def _edited(self, instruction: Instruction) -> None:
@@ -165,7 +169,11 @@ class InstructionForm(QWidget):
             self.picture = make(self.offers)
             if isinstance(self.picture, CommandList):
                 self.picture.picked.connect(self._put_in)
-            table = self.fields.cells.get(("table", ""))
+            table, rows = (self.fields.cells.get((name, "")) for name in ("table", "segments"))
+            if isinstance(self.picture, PathPicture) and rows is not None:
+                self.picture.mirror_wanted.connect(self.mirror_wanted)
+                rows.editor.opened.connect(self.picture.mark_row)
+                self.picture.mark_row(rows.editor.list.currentRow())
             if isinstance(self.picture, CurvePicture) and table is not None:
                 self.picture.point_moved.connect(table.editor.move_point)
                 self.picture.row_wanted.connect(lambda row: table.editor.view.go_to(row, 0))

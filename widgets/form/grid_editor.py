@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -185,7 +186,7 @@ class GridEditor(QWidget):
         if text.strip() == self.model.text(row, column):
             self.tell("")
         elif self.model.adds_up(column):
-            self._take(sheets.with_position(self.cells, row, column, parse_number(text) or 0))  # type: ignore[arg-type]
+            self._take(sheets.with_position(self.cells, row, column, parse_number(text) or Fraction(0)))
         else:
             self._take(sheets.with_cell(self.cells, row, column, text))
 
@@ -308,7 +309,7 @@ class GridEditor(QWidget):
         texts = filling.texts
         if self.sheet.steps and filling.places:
             before = parse_number(sheets.positions(self.cells, column)[filling.first - 1]) if filling.first else None
-            texts = sheets.as_steps(texts, before or parse_number("0"))  # type: ignore[arg-type]
+            texts = sheets.as_steps(texts, before or Fraction(0))
         cells = self._long_enough(filling.first + len(texts))
         if self._take(_told(sheets.filled(self.sheet, cells, filling.first, column, texts), "Nothing was filled")):
             self.view.go_to(filling.first, column)
@@ -339,7 +340,7 @@ class GridEditor(QWidget):
         self._set(cells)
 
 
-def _with_place(cells: Cells, row: int, column: int, place: Any) -> Cells:
+def _with_place(cells: Cells, row: int, column: int, place: Fraction) -> Cells:
     return sheets.with_cell(cells, row, column, plain(place))
 
 

@@ -8,8 +8,9 @@ from typing import Protocol
 
 from codegen.document import Document
 from codegen.ingredients import arrays_of
-from codegen.program import labels, variables
+from codegen.program import Place, labels, variables
 from codegen.setup import Setup
+from codegen.standing import Standing, standing_at
 
 
 class LiveValues(Protocol):
@@ -31,9 +32,11 @@ class Offers:
     variables: tuple[str, ...] = ()
     arrays: tuple[str, ...] = ()
     live: LiveValues | None = field(default=None, compare=False)
+    standing: Standing = field(default_factory=Standing)  # before the step
 
 
-def offers_of(document: Document, live: LiveValues | None = None) -> Offers:
-    """What a document offers to its forms."""
-    program = document.program
-    return Offers(document.working_setup, labels(program), variables(program), arrays_of(program), live)
+def offers_of(document: Document, live: LiveValues | None = None, place: Place | None = None) -> Offers:
+    """What a document offers to its forms, at a place of its program."""
+    program, setup = document.program, document.working_setup
+    standing = standing_at(program, place, setup) if place is not None else Standing()
+    return Offers(setup, labels(program), variables(program), arrays_of(program), live, standing)

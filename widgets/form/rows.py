@@ -21,9 +21,10 @@ class RowsEditor(QWidget):
     """The value is a tuple of frozen rows; `make_form` builds the form of one row."""
 
     changed = Signal(object)
+    opened = Signal(int)  # the entry whose form is shown; -1: none
 
     def __init__(
-        self, field: fields.ListOf, offers: Offers, make_form: Callable[[Offers], Any], *, narrow: bool = False
+        self, field: fields.ListOf, offers: Offers, make_form: Callable[..., Any], *, narrow: bool = False
     ) -> None:
         super().__init__()
         self.field = field
@@ -37,7 +38,7 @@ class RowsEditor(QWidget):
         self.list.setAccessibleName(field.label)
         self.list.setUniformItemSizes(True)
         self.list.currentRowChanged.connect(self._open)
-        self.form = make_form(offers)
+        self.form = make_form(offers, dense=self.beside)
         self.form.edited.connect(self._edited)
         self.empty = QLabel(f"Nothing in the list yet: press Add for the first entry of “{field.label}”.")
         self.empty.setProperty("role", "quiet")
@@ -55,7 +56,7 @@ class RowsEditor(QWidget):
     def _lay_out(self) -> None:
         """The entries with their buttons; the open one below them, or beside them when it has many fields."""
         bar = QHBoxLayout()
-        bar.setSpacing(2 if self.narrow else 4)
+        bar.setSpacing(2 if self.narrow or self.beside else 4)
         for button in self.buttons.values():
             bar.addWidget(button)
         bar.addStretch(1)
@@ -159,6 +160,7 @@ class RowsEditor(QWidget):
         self.buttons["up"].setEnabled(there and at > 0)
         self.buttons["down"].setEnabled(there and at < len(self.rows) - 1)
         self.buttons["clear"].setEnabled(bool(self.rows))
+        self.opened.emit(at if there else -1)
 
     def _words(self, number: int, row: Any) -> str:
         setup, path = self.offers.setup, self.form.path

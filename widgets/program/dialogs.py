@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from codegen.instructions import Instruction
-from codegen.program import Place, Section, find, open_routine, section_of
+from codegen.program import Place, Section, find, open_routine, place_of, section_of
 from codegen.read import sentence
 from widgets.form.dialog import InstructionDialog
 from widgets.form.offers import Offers, offers_of
@@ -33,7 +34,9 @@ class Dialogs(QObject):
         self, kind: type[Instruction], *, before: str | None = None, place: Place | None = None
     ) -> InstructionDialog:
         """The dialog of a new step."""
-        dialog = self._show(kind(), new=True, where=self._where(kind, before, place), section=self._section(before))
+        where = self._where(kind, before, place)
+        place_of_it = place or self.session.next_place(kind(), before)
+        dialog = self._show(kind(), new=True, where=where, section=self._section(before), place=place_of_it)
         dialog.added.connect(
             lambda instruction, section, stay: self._added(instruction, section, before, place, dialog.note.text())
         )
@@ -46,8 +49,9 @@ class Dialogs(QObject):
                 dialog.raise_()
                 dialog.activateWindow()
                 return dialog
-        step = find(self.session.document.program, step_id)
-        dialog = self._show(step.instruction, new=False, where="", note=step.note)
+        program = self.session.document.program
+        step = find(program, step_id)
+        dialog = self._show(step.instruction, new=False, where="", note=step.note, place=place_of(program, step_id))
         dialog.setProperty("step", step_id)
         dialog.changed.connect(lambda instruction: self._changed(step_id, instruction, dialog.note.text()))
         return dialog
@@ -60,19 +64,35 @@ class Dialogs(QObject):
             if step_id and step_id not in there:
                 dialog.reject()
             else:
-                dialog.show_offers(offers)
+                dialog.show_offers(self._offers(dialog, offers))
+
+    def _offers(self, dialog: InstructionDialog, offers: Offers) -> Offers:
+        """The same at the place of its step; of a new one, what was known when it was opened."""
+        step_id, document = dialog.property("step"), self.session.document
+        if not step_id:
+            return dc.replace(offers, standing=dialog.form.offers.standing)
+        return offers_of(document, offers.live, place_of(document.program, step_id))
+
+    def _mirror(self, letter: str) -> None:
+        """Pictures show an axis the other way round: a setting of the machine."""
+        document = self.session.document
+        axis = document.setup.axis(letter)
+        setup = document.setup.with_axis(letter, dc.replace(axis, mirrored=not axis.mirrored))
+        self.session.set_document(dc.replace(document, setup=setup), f"Turn {letter} in pictures")
+        self.said.emit(f"{letter} points the other way in pictures; angles are those of the picture.")
 
     # ---- inside
 
     def _show(
-        self, instruction: Instruction, *, new: bool, where: str, section: str = "", note: str = ""
+        self, instruction: Instruction, *, new: bool, where: str, place: Place, section: str = "", note: str = ""
     ) -> InstructionDialog:
-        offers = offers_of(self.session.document, getattr(self.view, "live", None))
+        offers = offers_of(self.session.document, getattr(self.view, "live", None), place)
         window = self.view.window()
         dialog = InstructionDialog(instruction, offers, new=new, where=where, section=section, note=note, parent=window)
         self.open.append(dialog)
         dialog.finished.connect(lambda _: self.open.remove(dialog))
         dialog.help_requested.connect(self.help_requested)
+        dialog.form.mirror_wanted.connect(self._mirror)
         dialog.show()
         dialog.raise_()
         dialog.activateWindow()
