@@ -33,9 +33,9 @@ class LineSettings:
     copyright: str = fact("TWOLETTER STUDIO SIMULATED CONTROLLER", "what CW alone tells", "inferred (form known)")
     serial_number: int = fact(1, "what _BN tells", "recall", high=2**31 - 1)
     data_mode_alone: bool = fact(
-        False,
+        True,
         "the data mode of port 1 (CI ,,1) also holds while no program runs",
-        "dmc-1412-1414.txt l.3524 (only when executing a program; what happens else is inferred)",
+        "inferred; dmc-1412-1414.txt l.3524: may only be used when executing a program",
     )
     output_fifo: int = fact(
         128,

@@ -72,20 +72,20 @@ class MotionSettings(LanguageSettings):
         1.5e-7, "FA: volts for 1 count/s² at FA 1", "recall", unit="V", rows=("FA",), unseen=MOTION
     )
     target_beyond_limit: str = fact(
-        "PA, PR, IP: error 6",
-        "a target behind FL or BL: where it is refused",
-        "dmc-1412-1414.txt l.4135 (not accepted; the code is inferred)",
-        choices=("PA, PR, IP: error 6", "PA, PR, IP: error 22", "BG, IP: error 22", "not refused"),
+        "not refused",
+        "a target behind FL or BL: where it is refused, or that the move runs and stops at the limit",
+        "SSC manual l.2605 (stops); dmc-1412-1414.txt l.4135 (not accepted; the code is inferred)",
+        choices=("not refused", "PA, PR, IP: error 6", "PA, PR, IP: error 22", "BG, IP: error 22"),
         unseen=LIMITS,
     )
     begins_as_a_whole: bool = fact(
         True, "BG of several axes starts none when one can not start", "inferred", unseen=MOTION
     )
     home_speed: str = fact(
-        "last of JG and SP",
-        "speed of HM's first stage and of FE",
-        "dmc-1412-1414.txt l.2323 (JG or SP)",
-        choices=("last of JG and SP", "SP", "JG"),
+        "SP",
+        "speed of HM's first stage",
+        "recall; dmc-1412-1414.txt l.2323 says JG or SP",
+        choices=("SP", "last of JG and SP", "JG"),
         unseen=MOTION,
     )
     index_speed: str = fact(

@@ -186,7 +186,11 @@ def test_the_manuals_example_of_software_limits() -> None:
     # passed in the sample after 2000, and down from 2000 counts/s at 256 000: 2000²/512000 = 8 counts more
     assert 2000 < bench.position() <= 2000 + 2 + 8 + 2
     assert bench.refused("BG") == 22
-    assert bench.refused("PA 2500") == 6
+    # SSC manual l.2605: "If the limit is exceeded during motion, motion on that axis will decelerate to a stop"
+    assert bench.type("JG -2000;BG\r", 100) == "::"
+    bench.type("ST\r", 100)
+    assert bench.type("SP 2000;PA 2500;BG\r", 1500) == ":::"
+    assert 2000 < bench.position() <= 2012 and bench.ask("SC") == "002"
 
 
 def test_limits_with_cn_1() -> None:
@@ -232,8 +236,9 @@ def test_speeds_of_homing() -> None:
 
 
 def test_the_speed_of_homing_may_change() -> None:
+    # of itself HM goes at SP, whatever JG was
     bench = bench_with()
-    bench.type("SP 4000;HM X;BG X\r", 200)
+    bench.type("SP 4000;JG 6000;HM X;BG X\r", 200)
     bench.type("SP 8000\r", 200)
     assert abs(bench.simulation.unit.motion.commanded_velocity(0)) == 8000
 

@@ -1,4 +1,4 @@
-"""Targets behind a software limit: "the DMC-141X will not accept position commands beyond the limit" (l.4135)."""
+"""Targets behind a software limit (target_beyond_limit): "will not accept position commands beyond" it (l.4135)."""
 
 from __future__ import annotations
 
