@@ -113,6 +113,8 @@ ROWS: tuple[Row, ...] = (
     Row("plane", "X-Y view", "Machine", "The way of two axes from above", "Alt+4", "measure"),
     Row("operator", "Operator terminal", "Machine", "The terminal at port 2 of the controller", "Alt+5", "operator"),
     Row("variables", "Variables", "Machine", "Variables and arrays of the controller", "Alt+7", "program"),
+    Row("events", "Events", "Machine", "What happened: faults, limits, stops, downloads; service bundle", "Alt+8",
+        "messages"),
     Row("simulator_panel", "Simulator switches", "Machine", "Flip the simulated machine's switches", "", "simulator"),
     Row("connect", "Connect…", "Controller", "Looks for a controller and offers what else can be done", "Ctrl+K",
         "connect"),

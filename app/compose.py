@@ -16,6 +16,7 @@ from app.by_hand import ByHand
 from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
+from app.event_list import Happened
 from app.files import Files
 from app.folding import Folding
 from app.follow import Follow, Program
@@ -48,6 +49,7 @@ from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
+from widgets.events.panel import EventsPanel
 from widgets.jog.panel import JogPanel
 from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
@@ -83,7 +85,7 @@ class Studio(QObject):
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
         self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
-        self.jog, self.values = JogPanel(clock=clock), ValuesPanel()
+        self.jog, self.values, self.event_list = JogPanel(clock=clock), ValuesPanel(), EventsPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.folding = Folding(self.session, self.program, settings, self)
@@ -109,6 +111,7 @@ class Studio(QObject):
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.setup.facts = self.follow.facts
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
+        self.happened = Happened(self.connection, self.session, self.tick, self.event_list, data, self.window)
         self.by_hand = ByHand(
             self.connection, self.session, self.tick, self.jog, self.desk.ask, self.ear.homed_axes, self
         )
@@ -122,9 +125,11 @@ class Studio(QObject):
             self.keys,
             self.jog,
             self.values,
+            self.event_list,
             self.terminal,
             self.simulator,
             self.ear,
+            self.happened.ear,
         )
         self._fill_window()
         self._join()
@@ -156,6 +161,7 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
+            "events": partial(desk.bring, "Events"),
             "jog": partial(desk.bring, "Jog"), "variables": partial(desk.bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial,
@@ -182,6 +188,7 @@ class Studio(QObject):
         window.add("Messages", self.messages, BOTTOM)
         window.add("Terminal", self.terminal, BOTTOM, moves=True)
         window.add("Variables", self.values, BOTTOM, moves=True)
+        window.add("Events", self.event_list, BOTTOM)
         self.actions.fill_menus(header.menus, window.submenus)
         self.actions.fill_toolbar(header.toolbar, MAIN)
         self.actions.fill_toolbar(window.run_bar.toolbar, RUN)
@@ -214,6 +221,7 @@ class Studio(QObject):
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)
         self.proof.comparing.show_step.connect(self.program.reveal_step)
+        self.event_list.line_wanted.connect(self.ear.reveal)
         self.proof.backups.act.connect(lambda name: self.actions[name].trigger())
         for said in (
             self.files.said,
@@ -225,6 +233,7 @@ class Studio(QObject):
             self.talk.said,
             self.leaving.said,
             self.proof.said,
+            self.happened.said,
             self.session.autosave_failed,
         ):
             said.connect(self.desk.say)

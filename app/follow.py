@@ -223,6 +223,14 @@ class Program(Panel):
         at = int(line) if math.isfinite(line) else -1
         return self._kept[at] if 0 <= at < len(self._kept) else None
 
+    def reveal(self, line: int) -> None:
+        """The instruction that a line of the controller's program comes from."""
+        row = self._row(line)
+        if row is None:
+            self._say(f"Line {line} is of another program than the open one.")
+        else:
+            self._view.reveal_line(row)
+
     def notice(self, notice: Notice) -> None:
         if self.controller is not None:
             self.homed.happened(notice.kind, self.controller.clock())

@@ -17,6 +17,7 @@ from device.clock import Clock
 from device.commands import Reply
 from device.door import Door, choose
 from device.download import Downloaded, DownloadFailed, Job, program_lines
+from device.events import Event, EventList, What
 from device.hands import Io, Memory
 from device.happenings import Badge, Kind, Notice, NoticeKind, State
 from device.identify import Identity, mismatch, read_once, who
@@ -46,6 +47,8 @@ __all__ = [
     "DownloadFailed",
     "Downloaded",
     "Ended",
+    "Event",
+    "EventList",
     "Identity",
     "Job",
     "Kind",
@@ -69,6 +72,7 @@ __all__ = [
     "StopState",
     "Stopped",
     "Traffic",
+    "What",
     "jog",
 ]
 T = TypeVar("T")

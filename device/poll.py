@@ -118,7 +118,7 @@ class Poller:
         more = 0 if quick and idle and self._rounds % IDLE_TURN else 1
         lines = requests((*quick, *others), columns)[: len(requests(quick, columns)) + more]
         self._asked.update({key: now for line in lines for key, _, _ in line})
-        if now >= self._always_due:
+        if now >= self._always_due and not (self.brief and idle):  # a hold ends by itself where the controller restarts
             self._always_due = now + SLOW_S
             always = tuple(key for key in ALWAYS if key in self.ring.columns)
             lines += requests(always, self.columns)

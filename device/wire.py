@@ -271,7 +271,7 @@ class Wire:
         start = self._buffer.find(mark)
         if start < 0 or len(self._buffer) == start + len(mark):
             return None
-        window = self._window(start)
+        window = self._unprompted(self._window(start), take=True)  # prompts of a stop, which nobody waited for
         self._drop(start + len(mark))
         self._take_prompt()
         if not self.manners.error_ends_line and (place := window.find("?")) >= 0:

@@ -215,3 +215,16 @@ def test_a_long_upload_in_small_pieces_takes_little_time() -> None:
     assert time.process_time() - start < 2.0
     assert answers[-1] is not None
     assert answers[-1].text == listing
+
+
+def test_prompts_that_a_stop_left_are_no_part_of_the_next_text() -> None:
+    """`\\ST` in command mode is answered by `?`, the second `ST` by a prompt; then the proof of `ST;HX` comes."""
+    wire = Wire()
+    wire.owe(2)
+    wire.expect(Proof("ab", 2, data=False))
+    wire.feed(b"?:" + b"::" + b"\x1eab\x1f\r\n:")
+    answer = wire.answer()
+    assert answer is not None
+    assert answer.kind is Kind.ACCEPTED
+    wire.feed(b"?002 QQ 5\r\n")
+    assert wire.lines() == ["?002 QQ 5"]

@@ -1,0 +1,173 @@
+"""Events: heard with every tick, kept on disk, and given away with everything a service needs in one file."""
+
+from __future__ import annotations
+
+import json
+import platform
+import threading
+import time
+import zipfile
+from collections.abc import Mapping
+from dataclasses import asdict
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QBuffer, QIODevice, QObject, Signal, qVersion
+from PySide6.QtWidgets import QWidget
+
+from app.about import version
+from app.backup_before import FOLDER, folder_of
+from app.connection import Connection
+from app.session import Session
+from app.tick import Tick
+from codegen.files import dumps, setup_dumps
+from device.api import EventList, Kind
+from device.backup_kept import kept
+from device.events import EventFile
+from device.events_heard import EventsHeard
+from widgets.events.panel import EventsPanel
+from widgets.panel import Panel
+from widgets.parts.files import ask_save
+
+if TYPE_CHECKING:
+    from device.api import Controller, Notice
+
+BUNDLES = "Service bundles (*.zip)"
+READ_ME = """What is in here, for whoever helps:
+
+events.json    what happened, newest last; places are counts, times seconds since 1970
+traffic.txt    the lines that went over the wire last
+program.tlp    the open program with its setup; code.dmc is what it compiles to
+setup.tls      the setup alone
+controller.dmc the program that was last read from the controller, where it is known
+versions.txt   versions, operating system, controller
+window.png     the window as it was
+back-up.tlb    the newest back-up of this controller, where there is one
+"""
+
+
+class Ear(Panel):
+    """Gets notices like every panel; shows nothing itself."""
+
+    def __init__(self, heard: EventsHeard) -> None:
+        super().__init__()
+        self._heard = heard
+        self.hide()
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self._heard.begin(controller)
+
+    def notice(self, notice: Notice) -> None:
+        if self.controller is not None:
+            self._heard.happened(self.controller, notice)
+
+    def look(self) -> None:
+        """With each tick."""
+        if self.controller is not None and self.controller.kind is not Kind.OFFLINE:
+            self._heard.look(self.controller)
+
+
+class Happened(QObject):
+    """Joins the list, its file, the panel and the bundle."""
+
+    said = Signal(str)
+
+    def __init__(
+        self,
+        connection: Connection,
+        session: Session,
+        tick: Tick,
+        panel: EventsPanel,
+        data: Path,
+        window: QWidget,
+    ) -> None:
+        super().__init__(window)
+        self._connection, self._session, self._window = connection, session, window
+        self._backups = data / FOLDER
+        self.events = EventList(EventFile(data / "events.jsonl"))
+        self.ear = Ear(EventsHeard(self.events))
+        self._writing: threading.Thread | None = None
+        self._result = ""
+        panel.show_events(self.events)
+        panel.bundle_wanted.connect(self.ask_bundle)
+        tick.each(self.once)
+
+    def once(self) -> None:
+        """With every tick."""
+        self.ear.look()
+        if self._writing is not None and not self._writing.is_alive():
+            self._writing = None
+            self.said.emit(self._result)
+
+    def ask_bundle(self) -> None:
+        """Where the bundle is to go."""
+        name = f"service-{time.strftime('%Y-%m-%d-%H%M')}.zip"
+        ask_save(self._window, "Save service bundle", BUNDLES, self.save_bundle, Path.home() / name, "zip")
+
+    def save_bundle(self, path: Path) -> None:
+        """Gathers here, writes beside the window's thread."""
+        parts, folder = self.parts(), folder_of(self._backups, self._connection.controller)
+        self._writing = threading.Thread(target=self._write, args=(path, parts, folder), name="service bundle")
+        self._writing.start()
+
+    def parts(self) -> dict[str, bytes]:
+        """Every part of the bundle by its name, except the back-up."""
+        controller, document = self._connection.controller, self._session.document
+        traffic = "\n".join(
+            f"{line.number} {line.direction} {line.source} {line.text}" for line in controller.traffic()
+        )
+        found = {
+            "read-me.txt": READ_ME,
+            "events.json": json.dumps([asdict(event) for event in self.events.all()], ensure_ascii=False, indent=1),
+            "traffic.txt": traffic + "\n",
+            "program.tlp": dumps(document),
+            "code.dmc": self._session.listing.text + "\n",
+            "setup.tls": setup_dumps(document.setup),
+            "versions.txt": self._versions(controller),
+        }
+        if controller.listing is not None:
+            found["controller.dmc"] = controller.listing + "\n"
+        return {**{name: text.encode() for name, text in found.items()}, "window.png": _picture(self._window)}
+
+    def _versions(self, controller: Controller) -> str:
+        identity = controller.identity
+        facts: Mapping[str, str] = {
+            "Twoletter Studio": version(),
+            "Python": platform.python_version(),
+            "Qt": qVersion(),
+            "System": platform.platform(),
+            "Connected to": f"{controller.kind.value} {self._connection.address}".strip(),
+            "Controller": identity.text if identity is not None else "not known",
+            "Serial number": str(identity.serial) if identity is not None and identity.serial else "not known",
+            "Line": str(controller.line),
+        }
+        return "".join(f"{name}: {text}\n" for name, text in facts.items())
+
+    def _write(self, path: Path, parts: Mapping[str, bytes], folder: Path | None) -> None:
+        newest = next(iter(kept(folder)), None) if folder is not None else None
+        backup = newest.path if newest is not None else None
+        try:
+            path.write_bytes(zipped(parts, backup))
+            self._result = f"Service bundle saved: {path}"
+        except OSError as reason:
+            self._result = f"The service bundle was not saved: {reason.strerror or reason} ({path})"
+
+
+def zipped(parts: Mapping[str, bytes], backup: Path | None) -> bytes:
+    """The parts as one file; a back-up that can not be read any more is left out."""
+    whole = BytesIO()
+    with zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, data in parts.items():
+            file.writestr(name, data)
+        if backup is not None and backup.is_file():
+            file.write(backup, "back-up.tlb")
+    return whole.getvalue()
+
+
+def _picture(window: QWidget) -> bytes:
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    window.grab().save(buffer, "PNG")  # type: ignore[call-overload]
+    return bytes(buffer.data().data())

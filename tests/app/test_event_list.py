@@ -1,0 +1,110 @@
+"""The event list: what really happens at a simulated machine appears in words, is kept, found and given away."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from tests.stage import Stage, make_studio
+from widgets.events.panel import EMPTY, NO_HIT
+
+
+@pytest.fixture
+def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
+    made = make_studio(tmp_path)
+    made.studio.window.resize(1280, 900)
+    made.studio.window.show()
+    made.go()
+    made.studio.desk.bring("Events")
+    made.go()
+    yield made
+    made.studio.close()
+
+
+def words(stage: Stage) -> str:
+    return stage.studio.event_list.words()
+
+
+def test_nothing_yet_then_a_limit_with_its_place_and_the_next_step(stage: Stage) -> None:
+    stage.go()
+    assert words(stage) == EMPTY
+    rig = stage.connect("simulator", "ssc1")
+    stage.go(30)
+    rig.type("PR 20000", "SP 20000", "BG X")
+    stage.later(0.3)
+    rig.simulation.stimulus("fls_x", 0)
+    stage.until(lambda: "forward limit" in words(stage).casefold())
+    line = next(line for line in words(stage).split("\n") if "forward limit" in line.casefold())
+    assert "X " in line and "reverse" in line  # where it stood, and which way to move it back
+
+
+def test_stop_download_and_program_errors_are_there_and_found(stage: Stage) -> None:
+    stage.connect("simulator", "ssc1")
+    stage.download()
+    stage.controller.stop()
+    stage.until(lambda: "STOP was pressed" in words(stage))
+    stage.rig.start("#A\nPR 100\nQQ 5\nEN")
+    stage.until(lambda: "program error" in words(stage))
+    panel = stage.studio.event_list
+    QTest.keyClicks(panel.search, "qq")
+    assert panel.table.rowCount() == 1 and "line 2" in words(stage)
+    panel.search.setText("no such word")
+    assert words(stage) == NO_HIT
+    panel.search.clear()
+    panel.kind.setCurrentText("Download")
+    assert panel.table.rowCount() >= 1 and all("download" in line for line in words(stage).split("\n"))
+
+
+def test_a_line_is_shown_where_it_is_of_the_open_program(stage: Stage) -> None:
+    stage.connect("simulator", "ssc1")
+    said: list[str] = []
+    stage.studio.ear._say = said.append
+    stage.studio.event_list.line_wanted.emit(1)
+    assert said == ["Line 1 is of another program than the open one."]
+    stage.download()
+    stage.go()
+    stage.studio.event_list.line_wanted.emit(1)
+    assert len(said) == 1
+    step = stage.studio.session.listing.step_of(stage.studio.ear._kept[1])
+    assert stage.studio.program.current_step() == step
+
+
+def test_events_survive_the_studio(stage: Stage, tmp_path: Path) -> None:
+    stage.connect("simulator", "ssc1")
+    stage.controller.stop()
+    stage.until(lambda: "STOP was pressed" in words(stage))
+    other = make_studio(tmp_path)
+    assert any("STOP was pressed" in event.text for event in other.studio.happened.events.all())
+    other.studio.close()
+
+
+def test_the_service_bundle_holds_everything(stage: Stage, tmp_path: Path) -> None:
+    stage.connect("simulator", "ssc1")
+    stage.download()
+    path = tmp_path / "service.zip"
+    QTest.mouseClick(stage.studio.event_list.bundle, Qt.MouseButton.LeftButton)  # asks for a file; F12 still works
+    stage.studio.happened.save_bundle(path)
+    stage.until(lambda: stage.studio.happened._writing is None)
+    with zipfile.ZipFile(path) as bundle:
+        assert bundle.testzip() is None
+        names = set(bundle.namelist())
+        assert {"events.json", "traffic.txt", "program.tlp", "setup.tls", "versions.txt", "controller.dmc"} <= names
+        assert bundle.read("window.png")[:4] == b"\x89PNG"
+        assert any(each["what"] == "download" for each in json.loads(bundle.read("events.json")))
+        assert bundle.read("controller.dmc").decode().split() == stage.studio.session.listing.text.split()
+        assert "DL" in bundle.read("traffic.txt").decode()
+
+
+def test_a_bundle_that_can_not_be_written_is_said(stage: Stage, tmp_path: Path) -> None:
+    said: list[str] = []
+    stage.studio.happened.said.connect(said.append)
+    stage.studio.happened.save_bundle(tmp_path / "no" / "such" / "folder.zip")
+    stage.until(lambda: said)
+    assert said[0].startswith("The service bundle was not saved")

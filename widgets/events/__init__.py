@@ -1,0 +1,1 @@
+"""What happened at the machine, as a list that can be searched."""

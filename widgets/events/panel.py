@@ -1,0 +1,188 @@
+"""The event list: what happened, when, where, why, and what to do next."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from device.api import Event, What
+from widgets.display.readings import unit_of
+from widgets.panel import Panel, set_text
+from widgets.parts.icons import icon
+from widgets.parts.units import shown
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from codegen.setup import Setup
+    from device.api import EventList, Row
+
+COLUMNS = ("Time", "What", "Where", "What happened", "Cause", "What to do next")
+ALL = "Everything"
+MOST = 1000  # rows shown; the search looks at all
+EMPTY = "Nothing has happened yet. Faults, limits, program errors, resets, STOP, downloads and burns appear here."
+NO_HIT = "No event has these words."
+ICONS = {
+    What.FAULT: ("problem", "fault"), What.LIMIT: ("limit", "warning"), What.STOPPED: ("wait", "text"),
+    What.PROGRAM: ("problem", "fault"), What.REFUSED: ("problem", "warning"), What.RESET: ("refresh", "warning"),
+    What.LOST: ("disconnect", "fault"), What.BACK: ("connect", "text"), What.STOP: ("stop", "stop"),
+    What.DOWNLOAD: ("download", "text"), What.BURN: ("burn", "text"),
+}  # fmt: skip
+ICON_COLUMN, WIDEST = 1, 300  # px of a column of text
+
+
+class EventsPanel(Panel):
+    """Newest first. It is handed the list once and looks at it with each tick while visible."""
+
+    title = "Events"
+    bundle_wanted = Signal()
+    line_wanted = Signal(int)  # a line of the program in the controller
+
+    def __init__(
+        self, parent: QWidget | None = None, local: Callable[[float], time.struct_time] = time.localtime
+    ) -> None:
+        super().__init__(parent)
+        self._local = local
+        self._events: EventList | None = None
+        self._setup: Setup | None = None
+        self._told: tuple[object, ...] = ()
+        self.search, self.kind = QLineEdit(), QComboBox()
+        self.bundle, self.words_ = QPushButton("Service bundle…"), QLabel(EMPTY)
+        self.table = QTableWidget(0, len(COLUMNS))
+        self.rows: tuple[Event, ...] = ()
+        self._lay_out()
+        self.bundle.clicked.connect(self.bundle_wanted)
+        self.search.textChanged.connect(lambda _: self._fill())
+        self.kind.currentIndexChanged.connect(lambda _: self._fill())
+        self.table.cellDoubleClicked.connect(self._opened)
+
+    def show_events(self, events: EventList) -> None:
+        """The list that is shown from now on."""
+        self._events = events
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        if old is None or old.setup is not new.setup:
+            self._setup, self._told = new.setup, ()
+
+    def refresh(self, row: Row) -> None:
+        self._fill_when_changed()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self._fill_when_changed()
+
+    def words(self) -> str:
+        """What is shown, as text."""
+        lines = []
+        for row in range(self.table.rowCount()):
+            cells = [self.table.item(row, column) for column in range(len(COLUMNS))]
+            lines.append(" | ".join(cell.text() for cell in cells if cell is not None))
+        return "\n".join(lines) or self.words_.text()
+
+    # ---- inside
+
+    def _fill_when_changed(self) -> None:
+        if self._events is None:
+            return
+        newest = self._events.all()[-1:]
+        told = (len(self._events), newest[0] if newest else None, self._events.problem)
+        if told != self._told:
+            self._told = told
+            self._fill()
+
+    def _fill(self) -> None:
+        if self._events is None:
+            return
+        chosen = self.kind.currentData()
+        found = self._events.search(self.search.text(), (chosen,) if chosen is not None else ())
+        self.rows = tuple(found[:MOST])
+        self.table.setRowCount(len(self.rows))
+        for number, event in enumerate(self.rows):
+            self._show(number, event)
+        count = f"{len(found)} of {len(self._events)} events" if len(found) < len(self._events) else ""
+        words = self._events.problem or ((EMPTY if not len(self._events) else NO_HIT) if not found else count)
+        set_text(self.words_, words)
+
+    def _show(self, row: int, event: Event) -> None:
+        stamp = time.strftime("%Y-%m-%d %H:%M:%S", self._local(event.at))
+        texts = (stamp, str(event.what), self._where(event), event.text, event.cause, event.step)
+        for column, text in enumerate(texts):
+            item = self.table.item(row, column)
+            if item is None:
+                item = QTableWidgetItem()
+                self.table.setItem(row, column, item)
+            if item.text() != text:
+                item.setText(text)
+                item.setToolTip(text)
+            if column == ICON_COLUMN:
+                item.setIcon(icon(*ICONS[event.what]))
+
+    def _where(self, event: Event) -> str:
+        parts = []
+        if event.axis and event.place is not None and self._setup is not None:
+            axis = self._setup.axis(event.axis)
+            parts.append(f"{event.axis} {shown(event.place, axis)} {unit_of(axis)}")
+        elif event.axis:
+            parts.append(event.axis)
+        if event.thread is not None:
+            parts.append(f"thread {event.thread}")
+        if event.line is not None:
+            parts.append(f"line {event.line}")
+        return ", ".join(parts)
+
+    def _opened(self, row: int, column: int) -> None:
+        line = self.rows[row].line
+        if line is not None:
+            self.line_wanted.emit(line)
+
+    def _lay_out(self) -> None:
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 4, 8, 4)
+        head = QHBoxLayout()
+        self.search.setPlaceholderText("Search")
+        self.search.setAccessibleName("Search events")
+        self.search.setClearButtonEnabled(True)
+        self.kind.setAccessibleName("Sort of event")
+        self.kind.addItem(ALL, None)
+        for what in What:
+            self.kind.addItem(str(what).capitalize(), what)
+        head.addWidget(self.search, 1)
+        head.addWidget(self.kind)
+        head.addWidget(self.bundle)
+        self.bundle.setToolTip(
+            "Events, traffic, program, setup, back-up, versions and a picture of the window in one file"
+        )
+        column.addLayout(head)
+        self.table.setHorizontalHeaderLabels(list(COLUMNS))
+        self.table.setAccessibleName("Events")
+        self.table.verticalHeader().hide()
+        self.table.setShowGrid(False)
+        self.table.setTabKeyNavigation(False)
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        header = self.table.horizontalHeader()
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
+        header.setStretchLastSection(True)
+        for place, width in enumerate((150, 130, 140, WIDEST, WIDEST)):
+            self.table.setColumnWidth(place, width)
+        column.addWidget(self.table, 1)
+        self.words_.setProperty("role", "quiet")
+        self.words_.setWordWrap(True)
+        column.addWidget(self.words_)
