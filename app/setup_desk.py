@@ -73,6 +73,8 @@ class SetupDesk(QObject):
             self.look()
             self._show_file()
             self.window.show()
+            if not self._why_not_read():
+                self.read(turn=False)
             return
         self.window.raise_()
         self.window.activateWindow()
@@ -88,10 +90,14 @@ class SetupDesk(QObject):
         if controller is not self._read_from:
             window.forget_readings()
             self._reading = self._read_from = None
-        waits = need.quiet(facts)
         identity = controller.identity
         serial = identity.serial if identity is not None else None
-        window.show_online(Online(need.live(facts) or waits, need.control(facts) or waits, serial))
+        window.show_online(Online(self._why_not_read(), need.control(facts) or need.quiet(facts), serial))
+
+    def _why_not_read(self) -> str:
+        """Why the controller can not be read now; nothing when it can."""
+        facts = self.facts()
+        return need.live(facts) or need.quiet(facts)
 
     def _make(self) -> SetupWindow:
         from widgets.setup.window import SetupWindow
@@ -105,7 +111,7 @@ class SetupDesk(QObject):
         window.open_wanted.connect(lambda: self._careful(lambda: self.file.open(window)))
         window.save_wanted.connect(lambda: self.file.save(window.setup, window))
         window.save_as_wanted.connect(lambda: self.file.save_as(window.setup, window))
-        window.read_wanted.connect(self.read)
+        window.read_wanted.connect(lambda: self.read())
         window.burn_wanted.connect(self.burn)
         return window
 
@@ -201,8 +207,8 @@ class SetupDesk(QObject):
 
     # ---- the controller
 
-    def read(self) -> None:
-        """What a connected controller holds, beside the setup."""
+    def read(self, turn: bool = True) -> None:
+        """What a connected controller holds, beside the setup; unasked (`turn` False) a failure shows nothing."""
         from device.setup_transfer import read_setup
 
         controller = self._connection.controller
@@ -211,15 +217,17 @@ class SetupDesk(QObject):
             window = self.window
             if window is None or controller is not self._connection.controller:
                 return
-            if failure := failure_of(future):
+            failure = failure_of(future)
+            if failure and turn:
                 self._ask("The controller was not read", failure, (), "problem")
+            if failure or not (turn or future.result().model == window.setup.model):
                 return
             self._reading, self._read_from = future.result(), controller
-            self._show_reading(controller, future.result())
+            self._show_reading(controller, future.result(), turn)
 
         self._tick.when_done(read_setup(controller), done)
 
-    def _show_reading(self, controller: Controller, reading: Reading) -> None:
+    def _show_reading(self, controller: Controller, reading: Reading, turn: bool = True) -> None:
         window = self.window
         assert window is not None  # the caller looked
         if reading.model != window.setup.model:
@@ -229,7 +237,7 @@ class SetupDesk(QObject):
             self._ask("Another controller", words, [(f"Make it a setup for {theirs}", change)], "warning")
             return
         missing = f" Not told by it: {', '.join(reading.not_told)}." if reading.not_told else ""
-        window.show_readings(reading.values, f"Read from {controller.who}.{missing}")
+        window.show_readings(reading.values, f"Read from {controller.who}.{missing}", turn)
 
     def _take_model(self, controller: Controller, reading: Reading) -> None:
         window = self.window

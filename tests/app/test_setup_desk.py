@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QFileDialog, QLineEdit
 from shiboken6 import isValid
@@ -80,12 +80,19 @@ def machine(stage: Stage, control: bool = True, **more: str) -> Rig:
 
 
 def compared(stage: Stage) -> SetupWindow:
-    """The window with what the controller holds beside the setup."""
+    """The window with what the controller holds beside the setup: it is read when the window opens."""
     window = opened(stage)
-    click(stage, window.read)
     stage.until(lambda: bool(window.comparing.readings))
+    assert window.stack.currentWidget() is window.controller
+    assert f"({len(window.comparing.keys)})" in window.list.item(7).text()
+    QTest.mouseClick(window.list.viewport(), Qt.MouseButton.LeftButton, pos=_place(window, 7))
     stage.go()
+    assert window.compare.isVisible()
     return window
+
+
+def _place(window: SetupWindow, row: int) -> QPoint:
+    return window.list.visualItemRect(window.list.item(row)).center()
 
 
 def register(rig: Rig, name: str, place: int = 0) -> float:
@@ -238,7 +245,10 @@ def test_in_watch_the_controller_is_read_and_its_values_are_taken_and_nothing_el
     rig.simulation.unit.state.registers["KP"][0] = int(12.5 * ONE)
     before = len(rig.lines)
     window = compared(stage)
-    assert window.compare.isVisible() and "SSC, two axes" in window.compare.said.text()
+    assert "SSC, two axes" in window.compare.said.text()
+    rig.simulation.unit.state.registers["KD"][0] = 80 * ONE
+    click(stage, window.read)
+    stage.until(lambda: ("KD", "X") in window.comparing.keys)  # read once more
     assert not window.burn.isEnabled() and "Watching only" in window.burn.toolTip()
     choose(window.compare.boxes["KP", "X"], Choice.TAKE)
     click(stage, window.done_button)

@@ -117,11 +117,12 @@ class SetupWindow(QDialog):
         self._show()
         self.changed.emit()
 
-    def show_readings(self, readings: Readings, who: str) -> None:
-        """What the controller holds was read just now."""
+    def show_readings(self, readings: Readings, who: str, turn: bool = True) -> None:
+        """What the controller holds was read just now; `turn` to the page that lists what differs."""
         self.comparing, self._who = Comparing.of(self.setup, readings), who
         self._show()
-        self.list.setCurrentRow(self.pages.index(self.compare))
+        if turn:
+            self.open_page(self.compare)
 
     def forget_readings(self) -> None:
         """Another controller is connected, or none: what was read says nothing any more."""
