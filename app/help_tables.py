@@ -80,7 +80,8 @@ def _troubleshooting() -> str:
     parts = [
         "# Troubleshooting",
         "Find what you see on the left. What the controller itself says stands under "
-        "[Error and stop codes](page:Error and stop codes); what goes over the line under [Terminal](page:Terminal).",
+        "[Error and stop codes](page:Error%20and%20stop%20codes); what goes over the line "
+        "under [Terminal](page:Terminal).",
     ]
     for group in dict.fromkeys(each["group"] for each in troubles):
         lines = [_row(["what you see", "what gives it away", "cause", "what to do"]), _row(["---"] * 4)]

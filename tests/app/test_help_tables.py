@@ -78,4 +78,4 @@ def test_codes_lead_to_troubleshooting_and_back() -> None:
     shipped = Pages()
     assert set(pages()) <= set(shipped)
     assert "(page:Troubleshooting)" in shipped["Error and stop codes"]
-    assert "(page:Error and stop codes)" in shipped["Troubleshooting"]
+    assert "(page:Error%20and%20stop%20codes)" in shipped["Troubleshooting"]
