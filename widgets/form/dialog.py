@@ -161,7 +161,10 @@ class InstructionDialog(QDialog):
         super().showEvent(event)
 
     def event(self, event: QEvent) -> bool:
-        """What stands around the fields may grow too."""
+        """What stands around the fields may grow too; Ctrl+Enter is the dialog's own, not the program's behind it."""
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and _adds(event):
+            event.accept()
+            return True
         done = super().event(event)
         if event.type() == QEvent.Type.LayoutRequest and self.isVisible():
             self.fit()
@@ -198,8 +201,7 @@ class InstructionDialog(QDialog):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Ctrl+Enter adds from anywhere, also out of a text of several lines."""
-        enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
-        if enter and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+        if _adds(event):
             self._accept()
             return
         super().keyPressEvent(event)
@@ -253,3 +255,8 @@ def _first_sentence(text: str) -> str:
     line = " ".join(text.split("\n\n")[0].split())
     end = line.find(". ")
     return line if end < 0 else line[: end + 1]
+
+
+def _adds(event: QKeyEvent) -> bool:
+    enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+    return enter and bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
