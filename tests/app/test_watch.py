@@ -15,8 +15,8 @@ from tests.long import count, record
 from tests.rig import Rig
 from tests.stage import Stage
 
-# the revision, framed reads, an upload; STOP and its proof
-HARMLESS = {"", "MG", "UL", "ST", "AB", "HX;MG"}
+# the revision, framed reads, uploads and lists; STOP and its proof
+HARMLESS = {"", "MG", "LS", "LV", "LA", "QU", "UL", "ST", "AB", "HX;MG"}
 LEAVE_ALONE = {"exit", "take_control"}  # ends the program; is the switch itself
 LISTING = "#A\nSB 2\nEN"
 
