@@ -119,6 +119,8 @@ ROWS: tuple[Row, ...] = (
     Row("connect", "Connect…", "Controller", "Looks for a controller and offers what else can be done", "Ctrl+K",
         "connect"),
     Row("serial", "Serial communication setup…", "Controller", "Port, baud rate, flow control", "", "settings"),
+    Row("doctor", "Examine the connection…", "Controller", "Looks at port, cable, speed, handshake; says what is wrong",
+        "", "search"),
     Row("simulator", "Use the simulator", "Controller", "Starts the bundled simulator", "", "simulator"),
     Row("disconnect", "Disconnect", "Controller", "Closes the connection; a running program goes on", "", "disconnect",
         needs=(need.is_online,)),
@@ -143,6 +145,10 @@ ROWS: tuple[Row, ...] = (
         "save"),
     Row("stop", "STOP", "Controller", "Stops all motion and all programs", "", "stop"),  # F12: app.stop_key
     Row("help", "Help on programming", "Help", "Help for what is in front", "F1", "help", "main", "Help"),
+    Row("help_programming", "Programming", "Help", "How a program is put together", "", "program"),
+    Row("help_examples", "Examples", "Help", "The programs that come with the studio, and their paths", "", "file"),
+    Row("help_wiring", "Connectors and wiring", "Help", "The pins of the controller in the setup", "", "connect"),
+    Row("help_trouble", "Troubleshooting", "Help", "What can be wrong, and what to do", "", "warning"),
     Row("about", "About Twoletter Studio", "Help", "Version and licence", "", "info"),
 )  # fmt: skip
 

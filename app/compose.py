@@ -16,6 +16,7 @@ from app.by_hand import ByHand
 from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
+from app.doctor_desk import DoctorDesk
 from app.event_list import Happened
 from app.files import Files
 from app.folding import Folding
@@ -104,6 +105,9 @@ class Studio(QObject):
         self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
+        self.doctor = DoctorDesk(
+            self.connection, self.tick, ports, self.start.line, lambda: self.start.choice().port, self.window
+        )
         self.options = Options(settings, self._theme, self.window)
         self.which = WhichModel(self.connection, settings, self.desk.ask)
         self.met = FoundWorking(self.connection, self.desk.ask, self.connection.stop, self.run.upload)
@@ -164,7 +168,7 @@ class Studio(QObject):
             "events": partial(desk.bring, "Events"),
             "jog": partial(desk.bring, "Jog"), "variables": partial(desk.bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
-            "connect": start.look, "serial": start.show_serial,
+            "connect": start.look, "serial": start.show_serial, "doctor": self.doctor.show,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
             "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
@@ -172,7 +176,10 @@ class Studio(QObject):
             "compare": self.proof.comparing.show, "backups": self.proof.backups.show,
             "handover": self.proof.handing.show, "print_pack": self.proof.handing.show_pack,
             "stop": self.connection.stop, "help": desk.help_for_focus,
-            "about": self._about,
+            "about": self._about, "help_wiring": self._wiring,
+            "help_programming": partial(desk.show_help, "Programming"),
+            "help_examples": partial(desk.show_help, "Examples"),
+            "help_trouble": partial(desk.show_help, "Troubleshooting"),
         }  # fmt: skip
 
     def _fill_window(self) -> None:
@@ -217,6 +224,8 @@ class Studio(QObject):
         self.session.replaced.connect(self._another_document)
         self.start.setup_wanted.connect(self.setup.show)
         self.start.exit_wanted.connect(self._exit)
+        self.start.doctor_wanted.connect(self.doctor.show)
+        self.doctor.connect_wanted.connect(self.start.connect_at)
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)
@@ -291,6 +300,10 @@ class Studio(QObject):
 
     def _theme(self, name: str) -> None:
         self.desk.choose_theme(name, self.actions)
+
+    def _wiring(self) -> None:
+        family = self.session.document.setup.limits.family
+        self.desk.show_help("Connectors: SSC" if family == "ssc" else "Connectors: DMC-1412 and DMC-1414")
 
     def _about(self) -> None:
         from app.about import about_words
