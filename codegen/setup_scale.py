@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from codegen.fields import Choice, Context, Number, fields_of, is_shown, value
 from codegen.numbers import decimal, is_short_decimal, parse_number, plain, shown
-from codegen.setup import Setup, Unit
+from codegen.setup import Setup, Unit, ratio_of
 
 MILLIMETRES = {
     Unit.INCH: Fraction("25.4"),
@@ -176,6 +176,15 @@ def rounded(number: Fraction) -> str:
 def _reach(counts: Fraction) -> str:
     """Beyond how many units a scale of twelve figures is a count off."""
     return f"more than {shown(Fraction(10 ** (FIGURES - 1)) / counts, 2)} units"
+
+
+def in_unit(text: str, old: Unit, new: Unit) -> str:
+    """Counts per unit of the same mechanics in another unit of length; other text stays as it is."""
+    number = ratio_of(text)
+    if number is None or old not in MILLIMETRES or new not in MILLIMETRES:
+        return text
+    counts = number * MILLIMETRES[new] / MILLIMETRES[old]
+    return plain(counts) if is_short_decimal(counts) else str(counts)
 
 
 def drives_for(unit: Unit) -> tuple[Drive, ...]:

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from codegen.rescale import AXIS_VALUES
 from codegen.setup import Setup, setup_problems
 from codegen.setup_differences import Key, Readings
 from codegen.setup_plate import plate_problem
@@ -146,6 +147,11 @@ class SetupWindow(QDialog):
             letter for letter in self.setup.letters if self.setup.axis(letter).scale != self._before.axis(letter).scale
         )
 
+    def _limited(self) -> bool:
+        """Whether an axis whose scale changed has limits in its unit."""
+        axes = [self._before.axis(letter) for letter in self.rescaled()]
+        return any(getattr(axis, name).strip() for axis in axes for name in AXIS_VALUES)
+
     # ---- what a person does
 
     def _edited(self, setup: Setup) -> None:
@@ -162,7 +168,8 @@ class SetupWindow(QDialog):
         self.changed.emit()
 
     def _finish(self) -> None:
-        if self._has_content and self.rescaled():
+        if self.rescaled() and (self._has_content or self._limited()):
+            self._word_question()
             self.question.show()
             self.keep_units.setFocus()
         else:
@@ -211,12 +218,7 @@ class SetupWindow(QDialog):
     def _make_question(self) -> QFrame:
         frame = QFrame()
         frame.setProperty("role", "card")
-        words = quiet("")
-        words.setText(
-            "The scale has changed and the program already holds positions. What should stay the same?\n"
-            "In units: 10 in stays 10 in, other counts are sent. "
-            "In counts: the machine moves as before, the numbers change."
-        )
+        self.asks = quiet("")
         self.keep_units, self.keep_counts = QPushButton("Keep the numbers in units"), QPushButton("Keep the counts")
         self.keep_units.clicked.connect(lambda: self._keep("units"))
         self.keep_counts.clicked.connect(lambda: self._keep("counts"))
@@ -225,10 +227,22 @@ class SetupWindow(QDialog):
         buttons.addWidget(self.keep_counts)
         buttons.addWidget(self.keep_units)
         column = QVBoxLayout(frame)
-        column.addWidget(words)
+        column.addWidget(self.asks)
         column.addLayout(buttons)
         frame.hide()
         return frame
+
+    def _word_question(self) -> None:
+        """With the units of the first axis whose scale changed."""
+        letter = self.rescaled()[0]
+        old, new = self._before.axis(letter).symbol, self.setup.axis(letter).symbol
+        stays = f"10 {old} stays 10 {new}" if old == new else f"10 {old} becomes 10 {new}"
+        what = "the program" if self._has_content else "the limits"
+        held = "holds" if self._has_content else "hold"
+        self.asks.setText(
+            f"The scale has changed and {what} already {held} positions. What should stay the same?\n"
+            f"In units: {stays}, other counts are sent. In counts: the machine moves as before, the numbers change."
+        )
 
     def _lay_out(self) -> None:
         self.file.setProperty("role", "quiet")

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen.setup import Axis, Setup, Unit, ratio_of, setup_problems
-from codegen.setup_scale import DRIVE_WORDS, Drive, Feedback, Length, Mechanics, Scale, drives_for, scale_of
+from codegen.setup_scale import DRIVE_WORDS, Drive, Feedback, Length, Mechanics, Scale, drives_for, in_unit, scale_of
 
 
 def axis_in(unit: Unit, name: str = "") -> Setup:
@@ -121,3 +121,16 @@ def test_what_is_no_quotient_is_never_taken_for_a_scale(text: str) -> None:
 def test_an_axis_in_counts_has_no_scale_whatever_was_typed_before() -> None:
     assert Axis(unit=Unit.COUNT, counts_per_unit="4000").scale == 1
     assert dc.replace(Axis(unit=Unit.COUNT, counts_per_unit="4000"), unit=Unit.MM).scale == 4000
+
+
+@given(COUNTS, COUNTS, st.sampled_from(list(Unit)), st.sampled_from(list(Unit)))
+def test_another_unit_and_back_is_the_same_scale(above: str, below: str, one: Unit, other: Unit) -> None:
+    text = f"{above}/{below}"
+    assert ratio_of(in_unit(in_unit(text, one, other), other, one)) == Fraction(int(above), int(below))
+
+
+def test_a_scale_follows_the_unit_of_length_only() -> None:
+    assert in_unit("25.4", Unit.INCH, Unit.MM) == "1"
+    assert in_unit("1000", Unit.METRE, Unit.CM) == "10"
+    assert in_unit("637", Unit.INCH, Unit.DEGREE) == in_unit("637", Unit.COUNT, Unit.MM) == "637"
+    assert in_unit("", Unit.INCH, Unit.MM) == "" and in_unit("12,5", Unit.INCH, Unit.MM) == "12,5"

@@ -254,6 +254,20 @@ def test_a_new_scale_in_an_empty_program_is_taken_at_once(qtbot: QtBot) -> None:
     assert [(setup.axis("X").counts_per_unit, keep) for setup, keep, _ in taken] == [("1000", "units")]
 
 
+def test_another_unit_of_length_keeps_the_mechanics_and_asks_about_limits_too(qtbot: QtBot) -> None:
+    """637 counts an inch are 637/25.4 = 3185/127 counts a millimetre; a limit of 20 in is not 20 mm in silence."""
+    setup = SETUP.with_axis("X", dc.replace(SETUP.axis("X"), forward_limit="20"))
+    window, taken = window_of(qtbot, setup=setup)
+    window.open_page(window.axes)
+    choose(window.axes.rows["X"].unit, Unit.MM)
+    assert window.setup.axis("X").counts_per_unit == "3185/127"
+    click(window.done_button)
+    assert taken == [] and "the limits already hold positions" in window.asks.text()
+    assert "10 in becomes 10 mm" in window.asks.text()
+    choose(window.axes.rows["X"].unit, Unit.INCH)
+    assert window.setup == setup and not window.question.isVisible()  # there and back
+
+
 @pytest.mark.parametrize("keep", ["units", "counts"])
 def test_a_new_scale_under_a_program_asks_what_to_keep(qtbot: QtBot, keep: str) -> None:
     window, taken = window_of(qtbot, True)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QLineEdit, QPushBu
 from codegen.fields import Context, fields_of
 from codegen.numbers import is_short_decimal, plain, shown
 from codegen.setup import Axis, Setup, Unit
+from codegen.setup_scale import in_unit
 from widgets.parts.look import look
 from widgets.setup.calculator import Calculator
 from widgets.setup.pages.grid import AxisGrid
@@ -69,7 +70,7 @@ class AxisRow(QWidget):
         for each in (name, self.unit, self.own, self.scale, self.work_out):
             row.addWidget(each)
         row.addWidget(self.words, 1)
-        self.unit.activated.connect(lambda _: self._put(unit=Unit(self.unit.currentData())))
+        self.unit.activated.connect(lambda _: self._change_unit(Unit(self.unit.currentData())))
         self.own.textEdited.connect(lambda text: self._put(unit_name=text.strip()))
         self.scale.textEdited.connect(lambda text: self._put(counts_per_unit=text.strip()))
         self.work_out.clicked.connect(self.calculate)
@@ -95,6 +96,10 @@ class AxisRow(QWidget):
             self.words.setProperty("role", role)
             self.words.style().polish(self.words)
         self.scale.setAccessibleDescription(words)
+
+    def _change_unit(self, unit: Unit) -> None:
+        """The mechanics stay what they are: the scale follows from one unit of length to another."""
+        self._put(unit=unit, counts_per_unit=in_unit(self._axis.counts_per_unit, self._axis.unit, unit))
 
     def _put(self, **values: object) -> None:
         axis = dc.replace(self._axis, **values)  # type: ignore[arg-type]
