@@ -218,24 +218,24 @@ def closes_a_loop(jump: Instruction) -> bool:
 
 
 def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fraction) -> str | None:
-    found = sums.errors(start, end)
-    parts = [text for letter, off in found.items() if (text := _far(letter, round(off, 12), setup, count))]
-    if parts:
-        return f"{words} drifts: {', '.join(sorted(parts, key=_axis_first))} in {plain(count)} turns"
-    if sums.reverses(start, end):
+    if sums.off:
+        found = tuple([(letter, round(off, 12)) for letter, off in sums.errors(start, end).items()])
+        if found and (parts := _far(found, setup, float(count))):
+            return f"{words} drifts: {parts} in {plain(count)} turns"
+    if sums.cuts and sums.reverses(start, end):
         return f"{words} may drift: expressions are cut down to whole counts, going back as well as forth"
     return None
 
 
 @lru_cache(maxsize=4096)
-def _far(letter: str, off: float, setup: Setup, count: Fraction) -> str:
-    """How far an axis is off after that many turns; nothing when it is less than a count."""
-    axis, far = setup.axis(letter), Fraction(off).limit_denominator(10**12) * count
-    return f"{letter} by {shown(far, 4)} {axis.symbol}" if abs(far) * axis.scale >= 1 else ""
-
-
-def _axis_first(words: str) -> int:
-    return AXES.index(words[0])
+def _far(offs: tuple[tuple[str, float], ...], setup: Setup, count: float) -> str:
+    """How far the axes are off after that many turns; nothing of those that are off by less than a count."""
+    parts = []
+    for letter, off in sorted(offs, key=lambda each: AXES.index(each[0])):
+        axis, far = setup.axis(letter), Fraction(off).limit_denominator(10**12) * Fraction(count)
+        if abs(far) * axis.scale >= 1:
+            parts.append(f"{letter} by {shown(far, 4)} {axis.symbol}")
+    return ", ".join(parts)
 
 
 def cut(move: Instruction) -> str | None:
