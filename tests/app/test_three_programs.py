@@ -91,7 +91,7 @@ def test_a_table_mills_a_rounded_rectangle(way: type[Hands], stage: Stage, tmp_p
     document = built(stage, way, "knife-table", tmp_path)
     simulation = machine(stage, document)
     way(stage.studio).act("execute")
-    stage.go(10)
+    stage.until(lambda: simulation.state()["threads"][0]["running"])
     places: list[tuple[float, float, float]] = []
     switched: list[tuple[bool, float, float]] = []
     down = False
