@@ -195,6 +195,13 @@ def _sentence_of(item: Any, setup: Setup, letters: str = "") -> str:
     return _filled(_template(item.sentence), words, lambda parts: _each_axis(item, parts, setup))
 
 
+def row_sentence(row: Any, setup: Setup, letters: str) -> str:
+    """A row of a list as the sentence says it; `letters`: the axes that all rows move together."""
+    text = _sentence_of(row, setup, letters)
+    members = fields_of(row)
+    return f"{next(iter(members.values())).label} {text}" if len(members) == 1 else text
+
+
 def sentence(instruction: Instruction, setup: Setup) -> str:
     """The instruction in one line of plain English, with values and units."""
     text: str | None = instruction.recall("_sentence", setup)

@@ -51,7 +51,10 @@ class Wait(Instruction):
         Quantity(label="Time", dimension=Dimension.TIME, axis="", help="How long, in ms (1000 ms are one second)."), ""
     )
     exactly: bool = value(
-        Flag(label="Exactly", help="Convert true milliseconds to samples instead of sending the number as it is."),
+        Flag(
+            label="True milliseconds",
+            help="Convert true milliseconds to samples instead of sending the number as it is.",
+        ),
         False,
     )
 

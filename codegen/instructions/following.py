@@ -51,8 +51,8 @@ class IncrementalPosition(Instruction):
     group = Group.MOTION
     sentence = "Shift the target of {distance}"
     help = (
-        "Standing: a relative move. On the way to a position: the target moves on, in the same direction only. "
-        "Running at a speed: the position jumps by this distance at once, without a ramp."
+        "Moves the target of a move on while it runs, in the same direction only. While the axis stands it is a "
+        "relative move; while it runs at a speed, the position jumps by this distance at once, without a ramp."
     )
 
     distance: PerAxisText = value(

@@ -20,7 +20,7 @@ from widgets.parts.look import look
 EDGE = 26  # px kept free around the path, for the letters
 DOT = 3.5
 ARROW = 26  # px, of an axis in the corner
-CORNER = 40  # px, of the corner with the axes
+CORNER = 36  # px beside the path, for the axes
 SMALL, LARGE, ROOMY = (232, 142), (380, 280), 820  # px; the larger one where a dialog may be that high
 Point = tuple[float, float]
 
@@ -138,7 +138,7 @@ class PathPicture(Canvas):
         if self.path:
             painter.save()
             painter.setClipRect(QRectF(1, 1, self.width() - 2, words.top() - 2))
-            self._path(painter, QRectF(EDGE, EDGE / 2, self.width() - 2 * EDGE, words.top() - EDGE))
+            self._path(painter, QRectF(EDGE, EDGE / 2, self.width() - 2 * EDGE - CORNER, words.top() - EDGE))
             painter.restore()
             self._arrows(painter, QPointF(self.width() - CORNER, CORNER))
 
@@ -198,11 +198,6 @@ class PathPicture(Canvas):
 
     def _arrows(self, painter: QPainter, origin: QPointF) -> None:
         """The directions of the two axes, in their colours; a click on one turns it."""
-        ground = look().colour("surface")
-        ground.setAlpha(210)
-        painter.fillRect(
-            QRectF(origin.x() - CORNER + 2, origin.y() - CORNER + 2, 2 * CORNER - 4, 2 * CORNER - 4), ground
-        )
         flips = mirrored(self.offers.setup, self.axes)
         ways = (QPointF(-1 if flips[0] else 1, 0), QPointF(0, 1 if flips[1] else -1))
         for letter, way in zip(self.axes, ways, strict=True):

@@ -163,13 +163,7 @@ class RowsEditor(QWidget):
         self.opened.emit(at if there else -1)
 
     def _words(self, number: int, row: Any) -> str:
-        setup, path = self.offers.setup, self.form.path
-        parts = []
-        for name, each in fields.fields_of(row).items():
-            if read.shown(row, name) and not each.empty(getattr(row, name)):
-                context = read.context_of(row, name, setup, read.row_axis(each, path))
-                parts.append(each.text(getattr(row, name), context))
-        return f"{number}    {'  '.join(part for part in parts if part) or '…'}"
+        return f"{number}    {read.row_sentence(row, self.offers.setup, self.form.path)}"
 
     def _button(self, text: str, picture: str, action: Callable[[], None], name: str = "") -> QPushButton:
         short = self.narrow or (self.beside and text != "Add")
