@@ -28,6 +28,7 @@ class Start(QObject):
 
     setup_wanted = Signal()
     exit_wanted = Signal()
+    doctor_wanted = Signal()
     said = Signal(str)
 
     def __init__(
@@ -110,6 +111,17 @@ class Start(QObject):
         self._connection.open(device, self.line())
         self._remember(device)
 
+    def connect_at(self, device: str, baud: int) -> None:
+        """Where the doctor found a controller: the port and its speed are remembered."""
+        self._leaving.careful("Connect to another port?", partial(self._connect_at, device, baud))
+
+    def _connect_at(self, device: str, baud: int) -> None:
+        self._settings.set("port", device)
+        self._settings.set("baud", baud)
+        self._search.cancel()
+        self.open_port(device)
+        self._done()
+
     def line(self) -> LineSettings:
         """The serial line as it was set up last."""
         choice = self.choice()
@@ -155,6 +167,7 @@ class Start(QObject):
             "setup": self._offline_setup,
             "offline": self._offline,
             "again": self.look,
+            "doctor": self.doctor_wanted.emit,
             "exit": self.exit_wanted.emit,
             "allow": self._search.allow,
             "skip": self._search.skip,

@@ -20,7 +20,7 @@ SHARE = 0.30  # of the line's time, in the busier direction, while a program run
 LEAST_S = 0.025  # between requests: one command takes 0.5 ms, so 2 % of the interpreter
 IDLE_SHARE = 0.80  # of the time in which characters travel either way, while no program runs
 IDLE_LEAST_S = 0.012
-IDLE_TURN = 3  # rounds of the quick values to one line of others then
+TURN = 3  # rounds of the quick values to one line of others
 SLOW_S = 1.0  # period of values that change rarely
 ALWAYS = ("thread0", "thread1", "thread2", "thread3", "time")
 REFUSALS = 3  # a value refused this often is not asked again
@@ -115,7 +115,7 @@ class Poller:
         others.sort(key=lambda key: self._asked.get(key, 0.0))
         columns = self.brief or self.columns
         self._rounds += 1
-        more = 0 if quick and idle and self._rounds % IDLE_TURN else 1
+        more = 0 if quick and self._rounds % TURN else 1
         lines = requests((*quick, *others), columns)[: len(requests(quick, columns)) + more]
         self._asked.update({key: now for line in lines for key, _, _ in line})
         if now >= self._always_due and not (self.brief and idle):  # a hold ends by itself where the controller restarts
@@ -185,4 +185,4 @@ class Poller:
         self._cycles.append(max(self._clock() - start, 1e-6))
         period = sum(self._cycles) / len(self._cycles)
         self.rate_hz = 1.0 / period
-        self.ring.period_s, self.ring.turn_s = period, period * len(requests(self.wanted(), self.columns)) / 2
+        self.ring.period_s, self.ring.turn_s = period, period * len(requests(self.wanted(), self.columns)) * TURN / 2

@@ -122,7 +122,7 @@ def scenes(folder: Path, theme: str) -> Iterator[tuple[str, QWidget]]:
 
 
 def _program(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    from tests.dialog_pictures import dialog_scenes, inspector_scenes
+    from tests.dialog_pictures import dialog_scenes, helper_scenes, inspector_scenes
 
     program = stage.studio.program
     for mode in ("both", "code"):
@@ -130,6 +130,7 @@ def _program(stage: Stage) -> Iterator[tuple[str, QWidget]]:
         yield f"program-{mode}", stage.studio.window
     program.set_view("program")
     yield from dialog_scenes()
+    yield from helper_scenes()
     yield from inspector_scenes()
 
 
@@ -172,6 +173,51 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from _jog(stage)
     yield from _operator(stage)
     yield from _values(stage)
+    yield from _events(stage)
+    yield from _doctor(stage)
+
+
+def _events(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """A limit, an error of a program and a STOP; the first is selected."""
+    stage.studio.desk.bring("Events")
+    rig = stage.rig
+    rig.type("SH", "JG 20000;BG X")
+    stage.go(60)
+    rig.simulation.stimulus("fls_x", 0)
+    stage.go(60)
+    rig.simulation.stimulus("fls_x", 1)
+    rig.start("#A\nMO\nWT 500\nBG X\nEN")
+    stage.go(90)
+    stage.controller.stop()
+    stage.go(30)
+    stage.studio.event_list.table.selectRow(1)
+    stage.go()
+    yield "panel-events", stage.studio.window
+
+
+def _doctor(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """Before, meanwhile, and the two sorts of answer."""
+    from codegen.rates import setting_words
+
+    desk = stage.studio.doctor
+    desk.show()
+    window = desk.window
+    assert window is not None
+    stage.go()
+    yield "doctor", window
+    window.show_busy("Asking at 19200 baud", 0.4)
+    stage.go()
+    yield "doctor-busy", window
+    there = setting_words(19200, None)
+    sentence = f"The controller at /dev/ttyUSB0 answers at 19200 baud ({there}), not at 9600."
+    window.show_diagnosis(sentence, ("Choose 19200 baud here.", "Or set the controller to 9600 baud."), 19200, False)
+    stage.go()
+    yield "doctor-speed", window
+    steps = ("Is the controller switched on? Its power light must be lit.", "Use a straight-through cable.")
+    window.show_diagnosis("Nothing answers at /dev/ttyUSB0, at no speed.", steps, None, False)
+    stage.go()
+    yield "doctor-silence", window
+    window.close()
 
 
 def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:

@@ -53,6 +53,12 @@ def test_stop_download_and_program_errors_are_there_and_found(stage: Stage) -> N
     stage.rig.start("#A\nPR 100\nQQ 5\nEN")
     stage.until(lambda: "program error" in words(stage))
     panel = stage.studio.event_list
+    panel.table.setCurrentCell(0, 0)
+    stage.until(lambda: "error 1" in words(stage))
+    panel.table.setCurrentCell(1, 0)
+    panel.table.setFocus()
+    QTest.keyClick(panel.table, Qt.Key.Key_Up)
+    assert panel.words_.text() == "Cause: error 1, Unrecognized command. Next: Look at the spelling of the line."
     QTest.keyClicks(panel.search, "qq")
     assert panel.table.rowCount() == 1 and "line 2" in words(stage)
     panel.search.setText("no such word")

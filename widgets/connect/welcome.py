@@ -41,7 +41,7 @@ WAYS = (
 
 
 class Welcome(QDialog):
-    """Never modal. `way` carries what was chosen: simulator, serial, setup, offline, again, exit, allow, skip."""
+    """Never modal. `way` tells what was chosen: simulator, serial, setup, offline, again, doctor, exit, allow, skip."""
 
     way = Signal(str)
 
@@ -55,7 +55,7 @@ class Welcome(QDialog):
         self.question = QLabel()
         self.allow, self.skip = QPushButton("Ask this port"), QPushButton("Leave it alone")
         self.ways: dict[str, QPushButton] = {}
-        self.again, self.exit = QPushButton("Try again"), QPushButton("Exit")
+        self.again, self.doctor, self.exit = (QPushButton(text) for text in ("Try again", "What is wrong?", "Exit"))
         self._lay_out()
         self.show_looking("Looking for a controller…")
 
@@ -84,6 +84,7 @@ class Welcome(QDialog):
         self.sentence.setVisible(bool(sentence))
         self.busy.setVisible(busy)
         self.again.setEnabled(not busy)
+        self.doctor.setEnabled(not busy)
         self.again.setToolTip("Still looking" if busy else "Looks for a controller once more")
         self.ask.hide()
         self.adjustSize()
@@ -115,7 +116,11 @@ class Welcome(QDialog):
         self.again.setIcon(icon("refresh"))
         self.again.clicked.connect(lambda: self.way.emit("again"))
         self.exit.clicked.connect(lambda: self.way.emit("exit"))
+        self.doctor.setIcon(icon("search"))
+        self.doctor.setToolTip("Examines a port: cable, speed, handshake, permission; says what to do")
+        self.doctor.clicked.connect(lambda: self.way.emit("doctor"))
         foot.addWidget(self.again)
+        foot.addWidget(self.doctor)
         foot.addStretch(1)
         foot.addWidget(self.exit)
         column.addLayout(foot)

@@ -71,6 +71,7 @@ class EventsPanel(Panel):
         self.search.textChanged.connect(lambda _: self._fill())
         self.kind.currentIndexChanged.connect(lambda _: self._fill())
         self.table.cellDoubleClicked.connect(self._opened)
+        self.table.currentCellChanged.connect(lambda row, *_: self._explain(row))
 
     def show_events(self, events: EventList) -> None:
         """The list that is shown from now on."""
@@ -120,7 +121,7 @@ class EventsPanel(Panel):
         set_text(self.words_, words)
 
     def _show(self, row: int, event: Event) -> None:
-        stamp = time.strftime("%Y-%m-%d %H:%M:%S", self._local(event.at))
+        stamp = time.strftime("%d %b %H:%M:%S", self._local(event.at))
         texts = (stamp, str(event.what), self._where(event), event.text, event.cause, event.step)
         for column, text in enumerate(texts):
             item = self.table.item(row, column)
@@ -145,6 +146,15 @@ class EventsPanel(Panel):
         if event.line is not None:
             parts.append(f"line {event.line}")
         return ", ".join(parts)
+
+    def _explain(self, row: int) -> None:
+        """Cause and next step of the selected event, also where its columns are out of sight."""
+        if 0 <= row < len(self.rows):
+            event = self.rows[row]
+            cause = f"Cause: {event.cause.removesuffix('.')}." if event.cause else ""
+            step = f"Next: {event.step}" if event.step else ""
+            words = " ".join(part for part in (cause, step) if part)
+            set_text(self.words_, words or time.strftime("%A, %d %B %Y, %H:%M:%S", self._local(event.at)))
 
     def _opened(self, row: int, column: int) -> None:
         line = self.rows[row].line
