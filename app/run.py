@@ -94,14 +94,14 @@ class Run(QObject):
         return self._session.listing if percent == FULL else slowed(self._session.document, percent)
 
     def _download(self, then: Callable[[], None] | None, percent: int) -> None:
-        self.before("before a download", partial(self._send, then, percent))
-
-    def _send(self, then: Callable[[], None] | None, percent: int, old: str | None) -> None:
         listing = self._listing(percent)  # as sent: the document may change meanwhile
         name = program_label(self._session.document.program)
-        job = self._connection.controller.memory.download(listing.text, old=old)
         sent = Sent(name, tuple(program_lines(listing.text)), self._now().strftime("%H:%M"))
         self._last = sent
+        self.before("before a download", partial(self._send, listing, sent, then))
+
+    def _send(self, listing: Listing, sent: Sent, then: Callable[[], None] | None, old: str | None) -> None:
+        job = self._connection.controller.memory.download(listing.text, old=old)
         self.begin("Downloading", job, lambda done: self._downloaded(done, listing, sent, then))
 
     def execute(self) -> None:

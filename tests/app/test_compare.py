@@ -80,8 +80,10 @@ def test_the_badge_tells_of_controller_and_eeprom(stage: Stage) -> None:
 
 def test_a_burn_by_hand_makes_the_eeprom_unknown(stage: Stage) -> None:
     burned(stage)
+    assert badge(stage) == "✓ In the controller, burned"
     stage.type("BP")
-    stage.until(lambda: badge(stage) == "✓ In the controller, EEPROM unknown")
+    stage.go()
+    assert badge(stage) == "✓ In the controller, EEPROM unknown"
 
 
 def test_what_was_burned_is_remembered_by_the_serial_number(stage: Stage) -> None:
@@ -90,7 +92,8 @@ def test_what_was_burned_is_remembered_by_the_serial_number(stage: Stage) -> Non
     stage.connect("machine", stage.studio.model(), program="\n".join(held))
     assert badge(stage) == "? Not known"
     trigger(stage, "upload")
-    stage.until(lambda: badge(stage) == "✓ In the controller, burned")
+    idle(stage)
+    assert badge(stage) == "✓ In the controller, burned"
 
 
 def test_a_controller_without_serial_number_is_not_taken_for_the_same(stage: Stage) -> None:
@@ -104,7 +107,8 @@ def test_a_controller_without_serial_number_is_not_taken_for_the_same(stage: Sta
     again = stage.connect("machine", stage.studio.model(), program="\n".join(rig.program))
     again.controller.identity = dc.replace(again.controller.identity, serial=0)  # type: ignore[type-var]
     trigger(stage, "upload")
-    stage.until(lambda: badge(stage) == "✓ In the controller, EEPROM unknown")
+    idle(stage)
+    assert badge(stage) == "✓ In the controller, EEPROM unknown"
 
 
 def test_differences_are_sentences_of_instructions(stage: Stage) -> None:

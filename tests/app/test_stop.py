@@ -92,6 +92,31 @@ def _terminal(stage: Stage) -> QWidget:
     return stage.studio.terminal.line
 
 
+def _backups(stage: Stage) -> QWidget:
+    stage.studio.proof.backups.show()
+    assert stage.studio.proof.backups.window is not None
+    return stage.studio.proof.backups.window.note
+
+
+def _replacing(stage: Stage) -> QWidget:
+    stage.studio.proof.backups.show()
+    stage.studio.proof.backups.show_replacing()
+    assert stage.studio.proof.backups.replacing is not None
+    return stage.studio.proof.backups.replacing
+
+
+def _compare(stage: Stage) -> QWidget:
+    stage.studio.proof.comparing.show()
+    assert stage.studio.proof.comparing.window is not None
+    return stage.studio.proof.comparing.window.tables["Program"]
+
+
+def _handover(stage: Stage) -> QWidget:
+    stage.studio.proof.handing.show()
+    assert stage.studio.proof.handing.page is not None
+    return stage.studio.proof.handing.page.changes
+
+
 def _prompt(stage: Stage) -> QWidget:
     rig = stage.question()
     assert rig.running == [ASKS]
@@ -114,6 +139,10 @@ PLACES: dict[str, Callable[[Stage], QWidget]] = {
     "the settings": _settings,
     "a question": _question,
     "an upload": _upload,
+    "the back-ups": _backups,
+    "the steps to replace": _replacing,
+    "the comparison": _compare,
+    "the handover": _handover,
     "help": _help,
     "a file dialog": _file_dialog,
     "a half-typed command": _terminal,
