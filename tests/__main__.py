@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.long import collect
+from tests.long.progress import begin_part, kept
 from tests.long.table import main as write_table
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -93,29 +94,51 @@ def workers(number: int) -> list[str]:
     return ["-n", str(number), "--dist", "worksteal"] if number and importlib.util.find_spec("xdist") else []
 
 
+def run_everyday(chosen: list[str], totals: Totals) -> None:
+    """All parts with the short counts."""
+    environment = dict(os.environ, QT_QPA_PLATFORM="offscreen")
+    environment.pop("TWOLETTER_LONG", None)
+    for title, marks, number in PARTS:
+        run_tests(title, [*workers(number), "-m", marks, *chosen], environment, totals)
+
+
+def run_long(chosen: list[str], totals: Totals, *, resume: bool) -> None:
+    """All parts with the full counts; the figures of whatever was run are written, also after an interruption."""
+    with kept(resume) as folder:
+        figures = folder / "figures"
+        environment = dict(
+            os.environ,
+            QT_QPA_PLATFORM="offscreen",
+            TWOLETTER_LONG="1",
+            TWOLETTER_FIGURES=str(figures),
+            TWOLETTER_LONG_RUN=str(folder),
+        )
+        try:
+            for title, marks, number in PARTS:
+                begin_part(folder)
+                more = ["-p", "tests.long.progress", "--timeout=7200", "-m", marks]
+                run_tests(title, [*workers(number), *more, *chosen], environment, totals)
+        finally:
+            print(f"{len(collect(figures))} figures in tests/long/results.json")
+            write_table()
+
+
 def main(argv: list[str] | None = None) -> int:
     """Runs everything and returns 0 only when all of it is right."""
     parser = argparse.ArgumentParser(prog="./studio test", description="Runs every check of the project.")
     parser.add_argument("--long", action="store_true", help="full counts; writes tests/long/results.json")
+    parser.add_argument("--resume", action="store_true", help="with --long: leaves out what passed before it was ended")
     parser.add_argument("rest", nargs="*", help="only these tests (files or folders)")
     options, extra = parser.parse_known_args(argv)
     started = time.monotonic()
     totals = Totals()
-    with tempfile.TemporaryDirectory() as figures:
-        environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", TWOLETTER_FIGURES=figures)
-        environment.pop("TWOLETTER_LONG", None)
-        limit: list[str] = []
-        if options.long:
-            environment["TWOLETTER_LONG"] = "1"
-            limit = ["--timeout=7200"]
-        for name, arguments in CHECKS:
-            run_check(name, arguments, totals)
-        chosen = [*options.rest, *extra]
-        for title, marks, number in PARTS:
-            run_tests(title, [*workers(number), "-m", marks, *limit, *chosen], environment, totals)
-        if options.long:
-            print(f"{len(collect(Path(figures)))} figures in tests/long/results.json")
-            write_table()
+    for name, arguments in CHECKS:
+        run_check(name, arguments, totals)
+    chosen = [*options.rest, *extra]
+    if options.long:
+        run_long(chosen, totals, resume=options.resume)
+    else:
+        run_everyday(chosen, totals)
     print(summary(totals, time.monotonic() - started))
     return 1 if totals.failed or totals.errors or totals.broken or not totals.passed else 0
 
