@@ -27,7 +27,7 @@ BADGES = {
     Holding.SLOWED: (
         "warning",
         "◔ Slowed to {percent} %",
-        "◔ {percent} %",
+        "◔ Slow {percent} %",
         "The controller holds {held}. Execute asks before it goes back to full speed; it can not be burned.",
     ),
     Holding.OTHER: (

@@ -50,8 +50,8 @@ class Doing:
         if self.line is None:
             return f"■ Thread {self.thread} is not running"
         waits = f", waiting: {self.waits}" if self.waits else ""
-        slow = f" – {self.slow}" if self.slow else ""
-        return f"► Thread {self.thread}: line {self.line}, {self.sentence}{waits}{slow}"
+        slow = f", {self.slow}" if self.slow else ""
+        return f"► Thread {self.thread}{slow}: line {self.line}, {self.sentence}{waits}"
 
     @property
     def cells(self) -> tuple[str, ...]:
