@@ -8,6 +8,10 @@ from pathlib import Path
 
 from PySide6.QtCore import QFileInfo, QLockFile
 
+import resources
+
+SHIPPED = resources.path("examples").absolute()  # nobody works on what is shipped; the folder stays as it is
+
 
 def note_of(path: Path) -> Path:
     """Where the note of a file lies: host, process and program, and by its owner the person."""
@@ -42,7 +46,7 @@ class Claim:
             return
         self.release()
         self._path = path
-        if path is not None and path.parent.is_dir():
+        if path is not None and path.parent.is_dir() and not path.is_relative_to(SHIPPED):
             lock = _lock(path)
             self._lock = lock if lock.tryLock(0) else None
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import resources
 from app.in_use import note_of, user_of
 from app.session import Session
 from codegen import files
@@ -141,3 +142,11 @@ def test_a_folder_that_takes_no_note_is_no_hindrance(tmp_path: Path, program: Pa
     session.open(program)
     tmp_path.chmod(0o700)
     assert session.path == program
+
+
+def test_nothing_is_written_beside_what_is_shipped() -> None:
+    example = Path(resources.path("examples/wire-cutter.tlp"))
+    session = Session()
+    session.open(example)
+    assert not note_of(example).exists()
+    session.close()
