@@ -131,7 +131,8 @@ class Desk(QObject):
             column = QVBoxLayout(self.help)
             column.addWidget(self._help_panel)
         self.help.show()
-        self._help_panel.open(page if page in self._pages else "Program window")
+        if not self._help_panel.open(page):
+            self._help_panel.open("Program window")
         self.help.raise_()
 
     def _fit_pictures(self) -> None:

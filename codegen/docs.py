@@ -28,6 +28,8 @@ from codegen.numbers import plain
 from codegen.read import sentence
 from codegen.setup import Axis, Setup
 from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.nodes import Command
+from codegen.twoletter.parse import parse_line
 
 SECTIONS = {
     "C": "It belongs to the configuration.",
@@ -50,6 +52,19 @@ def page(kind: type[Instruction]) -> str:
         parts.append("## Fields\n\n" + "\n".join(_field_line(name, field, kind) for name, field in fields.items()))
     parts.append(_example(kind.example()))
     return "\n\n".join(parts) + "\n"
+
+
+def command_page(line: str, column: int) -> str:
+    """The place in the help of the command at a column of a line of code: `Commands: Motion#PR`; "" without one."""
+    for statement in parse_line(line).statements:
+        if isinstance(statement, Command) and statement.span.start <= column <= statement.span.end:
+            return f"Commands: {COMMANDS[statement.name].group}#{statement.name}:"
+    return ""
+
+
+def field_page(title: str, label: str) -> str:
+    """The place in the help of a field of an instruction."""
+    return f"{title}#{label}"
 
 
 def _example(instruction: Instruction) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, QUrl, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtGui import QKeySequence, QShortcut, QTextBlock, QTextCursor
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
@@ -20,6 +20,10 @@ from PySide6.QtWidgets import (
 
 from widgets.parts.icons import icon
 from widgets.parts.look import look
+
+
+def _is_entry(block: QTextBlock) -> bool:
+    return block.blockFormat().headingLevel() > 0 or block.textList() is not None
 
 
 class HelpPanel(QWidget):
@@ -85,13 +89,26 @@ class HelpPanel(QWidget):
         whole.addWidget(splitter)
 
     def open(self, page: str) -> bool:
-        """Shows a page; says whether there is one of that name."""
-        if page not in self.pages:
+        """Shows a page, `Title` or `Title#part of a heading`; says whether there is one of that name."""
+        title, _, part = (page, "", "") if page in self.pages else page.partition("#")
+        if title not in self.pages:
             return False
-        if self.page and page != self.page:
+        if self.page and title != self.page:
             self.past.append(self.page)
-        self._show(page)
+        self._show(title)
+        if part:
+            self._scroll_to(part)
         return True
+
+    def _scroll_to(self, part: str) -> None:
+        """The heading or the entry of a list that begins so, at the top."""
+        block = self.browser.document().begin()
+        while block.isValid() and not (_is_entry(block) and block.text().startswith(part)):
+            block = block.next()
+        if block.isValid():
+            self.browser.setTextCursor(QTextCursor(block))
+            place = self.browser.document().documentLayout().blockBoundingRect(block).top()
+            self.browser.verticalScrollBar().setValue(int(place))
 
     def go_back(self) -> None:
         """The page before."""

@@ -8,9 +8,13 @@ PROPERTY = "helpPage"
 
 
 def topic_of(widget: QWidget | None) -> str | None:
-    """The page of the nearest widget upwards that names one; None when none does."""
+    """The page of the nearest widget upwards that names one; None when none does.
+
+    A widget whose page depends on where its cursor is has a method `help_page`.
+    """
     while widget is not None:
-        page = widget.property(PROPERTY)
+        asked = getattr(widget, "help_page", None)
+        page = (asked() if callable(asked) else "") or widget.property(PROPERTY)
         if page:
             return str(page)
         widget = widget.parentWidget()

@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QRect, Qt, Signal
 from PySide6.QtGui import QColor, QResizeEvent, QTextCursor, QTextFormat
 from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QWidget
 
+from codegen.docs import command_page
 from widgets.parts.look import look
 from widgets.source.highlight import Highlighter
 from widgets.source.margin import Margin
@@ -158,6 +159,11 @@ class CodeView(QPlainTextEdit):
             self._replace(first + shift, end, [], len(lines) - (end - first - shift))
             self.lines = lines[: first + shift] + lines[end:]
             self._replace(first, first, lines[first + shift : end], len(lines))
+
+    def help_page(self) -> str:
+        """Of the command at the cursor."""
+        cursor = self.textCursor()
+        return command_page(cursor.block().text(), cursor.positionInBlock())
 
     def _cursor_moved(self) -> None:
         if not self._following:

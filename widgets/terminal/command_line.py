@@ -9,6 +9,7 @@ from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
+from codegen.docs import command_page
 from codegen.models import MODELS, Model
 from codegen.twoletter.complete import Candidate, Names, ParameterHelp, complete, parameter_help
 from widgets.parts.look import look
@@ -43,6 +44,10 @@ class CommandLine(QLineEdit):
     def show_names(self, model: Model | None, names: Names) -> None:
         """The controller's model, and the names its program uses."""
         self.model, self.names = model or self.model, names
+
+    def help_page(self) -> str:
+        """Of the command at the cursor."""
+        return command_page(self.text(), self.cursorPosition())
 
     @property
     def offered(self) -> list[str]:
