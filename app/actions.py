@@ -50,6 +50,7 @@ ROWS: tuple[Row, ...] = (
     Row("new", "New program", "File", "Starts an empty program", "Ctrl+N", "new"),
     Row("open", "Open…", "File", "Opens a program file", "Ctrl+O", "open", "main", "Open"),
     Row("recent", "Open recent", "File", "Programs opened last"),
+    Row("examples", "Examples", "File", "Programs that come with the studio"),
     Row("save", "Save", "File", "Saves the program", "Ctrl+S", "save", "main", "Save"),
     Row("save_as", "Save as…", "File", "Saves the program under another name", "Ctrl+Shift+S"),
     Row("recover", "Recover unsaved work…", "File", "Work that an earlier session left behind without saving it"),
@@ -156,7 +157,7 @@ MENUS = ("File", "Edit", "View", "Machine", "Controller", "Help")
 # what stands together in the toolbar, in the order of the manual's main panel
 MAIN = (
     ("open", "save"),
-    ("setup", "program", "terminal", "display"),
+    ("setup", "program", "terminal", "display", "jog"),
     ("help", "exit"),
 )
 RUN = (("download", "execute", "halt"), ("burn", "upload"))
@@ -270,4 +271,4 @@ class Actions(QObject):
         return action
 
 
-SUBMENUS = frozenset({"recent", "panels", "floats", "slow"})
+SUBMENUS = frozenset({"recent", "panels", "floats", "slow", "examples"})

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QSize
 from PySide6.QtWidgets import QApplication
 
 from app.actions import MAIN, RUN, Actions
@@ -251,12 +251,14 @@ class Studio(QObject):
 
     def _join_window(self) -> None:
         window = self.window
-        window.resize(1400, 860)
+        window.resize(window.screen().availableSize().boundedTo(QSize(1400, 860)))
         window.first_shown.connect(self.desk.restore)
         window.stop.connect(self.connection.stop)
         window.closing.connect(self.leaving.asked)
         window.status.progress.cancelled.connect(self.run.cancel)
         window.submenus["recent"].aboutToShow.connect(lambda: self.desk.fill_recent(self.files))
+        examples = window.submenus["examples"]
+        examples.aboutToShow.connect(partial(self.files.fill_examples, examples))
         self.desk.export_wanted.connect(self.files.export_code)
         self.importing.placed.connect(self.program.tree.choose)
         self.program.said.connect(window.status.say)
