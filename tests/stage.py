@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import shiboken6
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 
 import resources
@@ -140,6 +142,14 @@ class Stage:
         self.until(lambda: rig.controller.pending_prompt is not None)
         return rig
 
+    def clear_away(self) -> None:
+        """The end: nothing of the studio stays in memory, though slots are referred to where Python can not see it."""
+        self.studio.close()
+        self.studio.window.hide()
+        for each in parts_of(self.studio):
+            if shiboken6.isValid(each) and each.parent() in (None, QApplication.instance()):
+                shiboken6.delete(each)
+
     def type(self, *commands: str) -> None:
         """Commands typed into the terminal, and what came of them."""
         terminal = self.studio.terminal
@@ -150,6 +160,23 @@ class Stage:
             terminal.line.setText(command)
             terminal.send.click()
             self.until(lambda count=count: terminal.log.blockCount() >= count + 2)
+
+
+def parts_of(studio: Studio) -> list[QObject]:
+    """Every Qt object that the studio or one of its parts has as an attribute, or in one."""
+    found: dict[int, Any] = {}
+    waiting: list[Any] = [studio]
+    while waiting:
+        part = waiting.pop()
+        if id(part) in found:
+            continue
+        found[id(part)] = part
+        for value in list(getattr(part, "__dict__", {}).values()):
+            several = value.values() if isinstance(value, dict) else value
+            for each in list(several) if isinstance(value, dict | list | tuple | set) else [value]:
+                if isinstance(each, QObject) or type(each).__module__.startswith(("app.", "widgets.")):
+                    waiting.append(each)
+    return [part for part in found.values() if isinstance(part, QObject) and part is not QApplication.instance()]
 
 
 def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.tlp") -> Stage:
