@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QBoxLayout, QMainWindow
+from PySide6.QtWidgets import QBoxLayout, QMainWindow, QMenu
 
+import resources
 from app.file_bar import FileBar
 from app.in_use import user_of
 from app.run import Ask
@@ -176,6 +177,15 @@ class Files(QObject):
     def _show_disk(self) -> None:
         path = self._session.path
         self.bar.show_disk(self._session.on_disk, path.name if path is not None else "", self._session.dirty)
+
+    def fill_examples(self, menu: QMenu) -> None:
+        """The programs that are shipped, by their names; each opens as a copy."""
+        if menu.isEmpty():
+            for path in sorted(resources.path("examples").glob("*.tlp")):
+                program = load(path).program
+                words = f"{program.name} – {program.description}" if program.description else program.name
+                action = menu.addAction(words.replace("&", "&&"))
+                action.triggered.connect(partial(self.careful, "Open an example?", partial(self._open_copy, path)))
 
     @property
     def recent(self) -> list[Path]:

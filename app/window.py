@@ -47,6 +47,7 @@ class Window(QMainWindow):
             "panels": QMenu("Panels"),
             "floats": QMenu("Panel in a window of its own"),
             "slow": QMenu("Execute slowed"),
+            "examples": QMenu("Examples"),
         }
         self._areas: dict[Qt.DockWidgetArea, list[Dock]] = {}
         self._was_shown = False

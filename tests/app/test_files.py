@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+import resources
 from app.disk import Disk
 from app.file_bar import FileBar
 from codegen import files
@@ -184,3 +185,18 @@ def test_another_program_takes_the_bar_away(stage: Stage) -> None:
     stage.studio.session.new()
     QApplication.processEvents()
     assert bar(stage).isHidden()
+
+
+def test_examples_open_as_copies(stage: Stage) -> None:
+    menu = stage.studio.window.submenus["examples"]
+    menu.aboutToShow.emit()
+    texts = [action.text() for action in menu.actions()]
+    assert len(texts) == len(list(resources.path("examples").glob("*.tlp")))
+    feeder = next(action for action in menu.actions() if action.text().startswith("CUTTER"))
+    feeder.trigger()
+    stage.go()
+    session = stage.studio.session
+    assert session.path is None  # Save asks for a name: what is shipped stays as it is
+    assert session.document.program.name == "CUTTER"
+    menu.aboutToShow.emit()
+    assert [action.text() for action in menu.actions()] == texts
