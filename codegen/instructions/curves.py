@@ -28,7 +28,7 @@ from codegen.fields import (
     value_of,
 )
 from codegen.instructions.instruction import Group, Instruction
-from codegen.numbers import parse_number, shown
+from codegen.numbers import decimal, parse_number, shown
 from codegen.setup import Setup
 from codegen.sheets import Sheet, columns_of
 from codegen.tables import Grid, read_table
@@ -288,11 +288,19 @@ class ElectronicCam(Instruction):
             return None
         counts, apart = setup.counts(Dimension.DISTANCE, self.master, cycle), len(grid.rows) - 1
         if counts % apart:
-            return (
-                "cycle",
-                f"Master cycle: its {counts} counts do not divide into {apart} equal parts; the curve ends early",
-            )
+            parts = f"its {counts} counts do not divide into {apart} equal parts"
+            return "cycle", f"Master cycle: {parts}, so the curve ends early: {self._remedy(setup, counts, apart)}"
         return self._seam(setup, grid) or self._too_fast(setup)
+
+    def _remedy(self, setup: Setup, counts: int, apart: int) -> str:
+        """A cycle near this one that divides, and a number of rows near this one that does."""
+        near = max(round(Fraction(counts, apart)), 1) * apart
+        places = len(str(int(setup.axis(self.master).scale))) + 1
+        exact = setup.from_counts(Dimension.DISTANCE, self.master, near)
+        advice = f"write {decimal(exact, places)} {setup.axis(self.master).symbol} ({near} counts)"
+        others = (apart + sign * off for off in range(1, apart) for sign in (1, -1))
+        rows = next((each for each in others if each < MOST_POINTS and counts % each == 0 and each > 1), None)
+        return f"{advice}, or use {rows + 1} rows" if rows else advice
 
     def _too_fast(self, setup: Setup) -> tuple[str, str] | None:
         """A slave that would have to go faster, or speed up harder, than it may."""

@@ -270,7 +270,8 @@ def test_wrong_cams(cam: ElectronicCam, message: str) -> None:
 
 def test_a_cam_says_where_it_does_not_fit() -> None:
     assert warnings(ElectronicCam(cycle="4", table="0\n1\n2\n0")) == [
-        "Master cycle: its 16000 counts do not divide into 3 equal parts; the curve ends early"
+        "Master cycle: its 16000 counts do not divide into 3 equal parts, so the curve ends early: "
+        "write 3.99975 in (15999 counts), or use 5 rows"
     ]
     jump = ElectronicCam(cycle="4", change=("", "1", "", ""), table="0\n1\n1.5")
     assert warnings(jump) == ["Y jumps by 0.5 in where the cycle begins again"]

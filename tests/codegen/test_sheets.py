@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen.courses import along_master, in_time
+from codegen.fields import Dimension
 from codegen.instructions import ContourMode, ElectronicCam
 from codegen.laws import Law, rise, way
 from codegen.numbers import parse_number
@@ -209,3 +210,15 @@ def test_a_table_that_can_not_be_read_is_shown_as_it_is() -> None:
     assert cells_of("1,234\t5", 2) == (("1,234", "5"),)
     assert cells_of("1,5\t2", 2) == (("1.5", "2"),)
     assert isinstance(read_table("1,234\t5"), BadTable)
+
+
+def test_a_cycle_that_does_not_divide_names_what_would() -> None:
+    """2548 = 4 x 637 counts in 8 parts: 318 x 8 = 2544 counts are 3.9937 in; 2548 = 7 x 364, so 8 rows."""
+    setup = machine().with_axis("X", Axis(counts_per_unit="637"))
+    cam = ElectronicCam(cycle="4", slaves="Y", table="0\n0.25\n1\n1.75\n2\n1.75\n1\n0.25\n0")
+    assert cam.own_warning(setup) == (
+        "cycle",
+        "Master cycle: its 2548 counts do not divide into 8 equal parts, so the curve ends early: "
+        "write 3.9937 in (2544 counts), or use 8 rows",
+    )
+    assert setup.counts(Dimension.DISTANCE, "X", Fraction("3.9937")) == 2544

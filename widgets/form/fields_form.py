@@ -13,6 +13,7 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from codegen import fields, read
+from codegen.docs import field_page
 from widgets.form.cell import Cell, focus_in
 from widgets.form.editors import AXIS_EDITORS, EDITORS, NUMBER_WIDTH, LineEditor, choice_list, in_little_room, maker_for
 from widgets.form.grid_editor import GridEditor
@@ -25,6 +26,8 @@ SILENT = (fields.Flag, fields.Choice, fields.AxisName, fields.ListOf)  # seldom 
 COLUMNS = 3  # of a table of axes
 TIGHT_WIDTH = 124  # px, of a number where fields stand side by side
 AXIS_SETS = ("axes", "slaves")  # names of the fields that say which axes take part
+BELOW = 176  # least height of a picture there, px
+HIGH = 3  # rows above a list that leave room below its entries
 MOST_ROWS = 12  # a form that is longer has its last fields beside the others
 Key = tuple[str, str]  # field name, axis letter ("" for a field that is not per axis)
 
@@ -46,6 +49,7 @@ class FieldsForm(QWidget):
         self.path = ""  # of a row in a list: the axes that all rows move together
         self.cells: dict[Key, Cell] = {}
         self.labels: dict[str, list[QWidget]] = {}
+        self.places: dict[str, tuple[QGridLayout, int]] = {}  # of fields in rows
         self.letters: list[tuple[QLabel, str, tuple[str, ...]]] = []  # before a row of these fields
         self.column = QVBoxLayout(self)
         self.column.setContentsMargins(0, 0, 0, 0)
@@ -139,6 +143,17 @@ class FieldsForm(QWidget):
                 return chosen or self.offers.setup.letters
         return self.offers.setup.letters
 
+    def put_below(self, name: str, widget: QWidget) -> bool:
+        """Puts a picture below the entries of a list, when that stands high enough; whether it did."""
+        grid, row = self.places[name]
+        editor = self.cells[name, ""].editor
+        if self.narrow or row > HIGH or not (isinstance(editor, RowsEditor) and editor.beside):
+            return False
+        editor.put_below(widget)
+        widget.setMinimumHeight(max(widget.minimumHeight(), BELOW))
+        grid.setRowStretch(row, 10)
+        return True
+
     def focus_first(self) -> None:
         """Puts the cursor into the first field that has a problem, else into the first one."""
         shown = [(key, cell) for key, cell in self.cells.items() if self.is_shown(*key)]
@@ -194,6 +209,7 @@ class FieldsForm(QWidget):
             cell = self._cell(name, "", field, editor, field.label, wide=not self.narrow)
             label = self._label(field, editor)
             self.labels[name] = [label]
+            self.places[name] = self.grid, row
             if self.narrow:
                 self.grid.addWidget(label, row, 0, 1, 6)
                 row += not isinstance(field, fields.Flag)
@@ -260,6 +276,8 @@ class FieldsForm(QWidget):
     def _cell(self, name: str, axis: str, field: fields.Field, editor: QWidget, words: str, *, wide: bool) -> Cell:
         silent = isinstance(field, SILENT) or isinstance(getattr(field, "of", None), SILENT)
         cell = Cell(editor, words, field.help, wide=wide, speaks=not silent, tight=self.tight, parent=self.inside)
+        if title := getattr(type(self.item), "title", ""):  # rows of a list have none: theirs is that of the list
+            cell.setProperty("helpPage", field_page(title, field.label))
         cell.changed.connect(lambda value: self._changed(name, axis, value))
         line = getattr(editor, "line", editor)
         if isinstance(line, LineEditor):

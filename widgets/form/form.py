@@ -179,6 +179,8 @@ class InstructionForm(QWidget):
                 self.picture.row_wanted.connect(lambda row: table.editor.view.go_to(row, 0))
                 table.editor.row_changed.connect(self.picture.mark_row)
                 self._beside.addWidget(self.picture, 1)
+            elif rows is not None and self.fields.put_below("segments", self.picture):
+                pass
             elif self.fields.tight:  # there is room below the shorter column
                 self.fields.last_column.addWidget(self.picture, 1)
             else:

@@ -71,8 +71,15 @@ class RowsEditor(QWidget):
         whole.setSpacing(12 if beside else 8)
         whole.addLayout(entries, 1)
         whole.addWidget(self.form)
+        self.below = entries if beside else None
         if beside:
             entries.addStretch(1)
+
+    def put_below(self, widget: QWidget) -> None:
+        """Something that belongs to the entries takes the room below their buttons."""
+        assert self.below is not None, "only a list with its form beside it has room"
+        self.below.takeAt(self.below.count() - 1)
+        self.below.addWidget(widget, 1)
 
     @property
     def invitation(self) -> str:
