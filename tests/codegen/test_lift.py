@@ -253,6 +253,15 @@ def test_a_line_that_is_not_understood_is_kept_and_says_what_is_wrong() -> None:
     assert "SB 1" in listing.text and "CB 1" in listing.text
 
 
+def test_the_revision_in_the_first_line_becomes_that_of_the_program() -> None:
+    source = "NO Long name, rev C, 2026-11-22, by J. Smith\n#LONGNAM\nSB 1\nEN"
+    document = lift(source, "x", SETUP)
+    assert document.program.name == "Long name"
+    made = document.handover
+    assert (made.revision, made.date, made.author) == ("C", "2026-11-22", "J. Smith")
+    assert generate(document).text == source
+
+
 def test_remarks_are_kept() -> None:
     program = lift("#A\nREM first the clamp\nSB 1\nEN", "A", SETUP).program
     texts = [getattr(step.instruction, "text", "") for step in program.steps()]

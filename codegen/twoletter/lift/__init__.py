@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from codegen.document import Document
 from codegen.fields import AXES, SYSTEM_LABELS
 from codegen.generate import generate
+from codegen.handover import Handover, stamp_of
 from codegen.instructions import Comment, Instruction, Label, TwoLetterCode
 from codegen.models import Model
 from codegen.setup import Setup, Unit
@@ -194,16 +195,26 @@ def lift(text: str, name: str, setup: Setup) -> Document:
     source = parse(text)
     if _counts_lines(source):
         return _untouched(source, name, setup)
-    last: Document | None = None
+    stamp = stamp_of(source.lines[0].text) if source.lines else None
+    made = Handover(author=stamp.author, revision=stamp.revision, date=stamp.date) if stamp else Handover()
+    if stamp:
+        source, name = Source(source.lines[1:]), stamp.name or name
+    document = _proved(text, source, name, setup, made)
+    if document is None and stamp:
+        document = _proved(text, parse(text), name, setup, Handover())
+    return document or _untouched(parse(text), name, setup)
+
+
+def _proved(text: str, source: Source, name: str, setup: Setup, made: Handover) -> Document | None:
+    """The boldest document that writes the source again; one whose every step becomes code comes first."""
     for wanted in ("complete", "same"):
-        for way in WAYS:
-            document = Document(frame(_found(source, setup, way), name, way), setup)
+        for each in WAYS:
+            way = dataclasses.replace(each, named=bool(made.revision))
+            document = Document(frame(_found(source, setup, way), name, way), setup, handover=made)
             listing = generate(document)
-            last = document
             if same_program(text, listing, setup.limits) and (wanted == "same" or listing.is_complete):
                 return document
-    assert last is not None
-    return _untouched(source, name, setup)
+    return None
 
 
 def _found(source: Source, setup: Setup, way: Way) -> list[Instruction]:

@@ -32,6 +32,7 @@ class Way:
     arrays: bool = True  # DM as instructions, with the DA in front of them left to the generator
     loops: bool = True
     routines: bool = True
+    named: bool = False  # the source tells its name, of which its label is only the beginning
 
 
 WAYS = (
@@ -47,7 +48,7 @@ def frame(found: list[Instruction], name: str, way: Way) -> Program:
     """The program of a source's instructions."""
     auto = bool(found) and found[0] == Label(name=AUTO)
     found = found[1:] if auto else found
-    title, found = _titled(found, name)
+    title, found = _titled(found, name, way)
     main, routines = _split(found) if way.routines else (found, [])
     if main and main[-1] == PLAIN_END:
         main = main[:-1]  # the frame writes it
@@ -62,12 +63,14 @@ def frame(found: list[Instruction], name: str, way: Way) -> Program:
     )
 
 
-def _titled(found: list[Instruction], name: str) -> tuple[str, list[Instruction]]:
+def _titled(found: list[Instruction], name: str, way: Way) -> tuple[str, list[Instruction]]:
     """The name of the program: its first label where nothing jumps there, else the file's."""
     first = found[0] if found else None
     own = first.name if isinstance(first, Label) else ""
-    if own and program_label(Program(name=own)) == own and not any(own in _targets(each) for each in found):
-        return own, found[1:]
+    if own and not any(own in _targets(each) for each in found):
+        for title in (name, own) if way.named else (own,):
+            if program_label(Program(name=title)) == own:
+                return title, found[1:]
     taken = {each.name for each in found if isinstance(each, Label)}
     title = name
     for number in range(1, 1000):
