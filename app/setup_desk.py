@@ -90,6 +90,7 @@ class SetupDesk(QObject):
         if controller is not self._read_from:
             window.forget_readings()
             self._reading = self._read_from = None
+        window.show_stop(controller.kind, controller.stop_state)
         identity = controller.identity
         serial = identity.serial if identity is not None else None
         window.show_online(Online(self._why_not_read(), need.control(facts) or need.quiet(facts), serial))
@@ -113,6 +114,7 @@ class SetupDesk(QObject):
         window.save_as_wanted.connect(lambda: self.file.save_as(window.setup, window))
         window.read_wanted.connect(lambda: self.read())
         window.burn_wanted.connect(self.burn)
+        window.stop.stop.connect(self._connection.stop)
         return window
 
     def _show_file(self) -> None:

@@ -178,20 +178,13 @@ def _line(setup: Setup, register: Register, letter: str) -> Line | None:
     return Line(register.command, letter, text, words, caution, register.motor_off)
 
 
-def stated(setup: Setup, readings: Readings | None = None) -> frozenset[Key]:
-    """Everything the setup states; with readings, only what the controller holds otherwise."""
+def stated(setup: Setup) -> frozenset[Key]:
+    """Everything the setup states."""
     return frozenset(
         (register.command, letter)
         for letter in setup.letters
         for register in REGISTERS
         if register.wanted(setup, letter) is not None
-        and (
-            readings is None
-            or (
-                (register.command, letter) in readings
-                and differs(setup, register, letter, readings[register.command, letter])
-            )
-        )
     )
 
 

@@ -128,6 +128,7 @@ def test_offline_cancel_changes_nothing_and_the_controllers_buttons_say_why_they
 ) -> None:
     before = stage.studio.session.document
     window = opened(stage)
+    assert not window.stop.isVisible()
     for button in (window.read, window.burn):
         assert not button.isEnabled() and "Connect a controller" in button.toolTip()
     fill(window.controller.name, "Other")
@@ -299,6 +300,10 @@ def test_a_motor_type_goes_with_the_motor_off_and_nothing_while_an_axis_moves(st
     click(stage, question.buttons["Send and finish"])
     assert "an axis is moving" in asked(stage, "The setup was not sent").words
     assert register(rig, "MT", 1) == -1 and not rig.sent("MO")
+    again = opened(stage)
+    assert again.stop.isVisible() and again.stop.words[1].startswith("MACHINE")
+    QTest.mousePress(again.stop, Qt.MouseButton.LeftButton)
+    stage.until(lambda: rig.moving == [])
 
 
 def test_another_serial_number_is_asked_about_before_anything_is_sent(stage: Stage) -> None:

@@ -22,7 +22,9 @@ from codegen.rescale import AXIS_VALUES
 from codegen.setup import Setup, setup_problems
 from codegen.setup_differences import Key, Readings
 from codegen.setup_plate import plate_problem
+from device.api import Kind, StopState
 from widgets.parts.look import look
+from widgets.parts.stop_button import StopButton
 from widgets.setup.comparing import Comparing
 from widgets.setup.pages.axes import AxesPage
 from widgets.setup.pages.compare import Choice, ComparePage
@@ -73,7 +75,8 @@ class SetupWindow(QDialog):
             self.compare,
         )
         self.list, self.stack = QListWidget(), QStackedWidget()
-        self.file, self.problem = QLabel(), quiet("warning")
+        self.file, self.problem, self.stop = QLabel(), quiet("warning"), StopButton()
+        self.stop.hide()  # until something is connected: what is sent may move it
         self.file_buttons = {
             "New": (QPushButton("New"), self.new_wanted),
             "Open": (QPushButton("Open…"), self.open_wanted),
@@ -110,6 +113,11 @@ class SetupWindow(QDialog):
             button.setEnabled(not reason)
             button.setToolTip(reason or words)
         self._show()
+
+    def show_stop(self, kind: Kind, state: StopState) -> None:
+        """What is connected, and what has become of the last stop."""
+        self.stop.show_state(kind, state)
+        self.stop.setVisible(kind is not Kind.OFFLINE)
 
     def show_setup(self, setup: Setup) -> None:
         """Another setup, from a file or a new one."""
@@ -264,6 +272,7 @@ class SetupWindow(QDialog):
             head.addWidget(button)
         head.addSpacing(8)
         head.addWidget(self.file, 1)
+        head.addWidget(self.stop)
         middle = QHBoxLayout()
         middle.setSpacing(24)
         middle.addWidget(self.list)

@@ -64,7 +64,6 @@ class AxisGrid(QWidget):
         )
         if isinstance(cell.editor, QComboBox):
             cell.editor.setToolTip(f"{cell.editor.currentText()}\n{field.help}")
-        cell.editor.setProperty("differs", bool(other))
 
     @staticmethod
     def counts_for(name: str, axis: Axis) -> bool:
