@@ -220,14 +220,17 @@ class Backups(QObject):
         wanted, controller = self._chosen, self._connection.controller
         if wanted is None:
             return
-        partly = f" It is a quick one: {', '.join(wanted.left_out)} are not in it and stay." if wanted.left_out else ""
+        left = ", ".join(wanted.left_out)
         words = (
-            f"Taken {wanted.taken}: {summary(wanted)}. {self._serial_words()}{partly} The motors go off (a vertical "
-            "axis may fall), then parameters, variables, arrays and program are replaced, read back and compared "
-            "item by item. What is there now is kept first. Nothing is burned."
+            f"Taken {wanted.taken}: {summary(wanted)}.",
+            self._serial_words(),
+            f"It is a quick one: {left} are not in it and stay as they are." if left else "",
+            "The motors go off (a vertical axis may fall), then parameters, variables, arrays and program are "
+            "replaced, read back and compared item by item. What is there now is kept first. Nothing is burned.",
         )
         answer = partial(self._keep_first, wanted, controller)
-        self._ask("Put this back-up into the controller?", words, [("Restore", answer)], "warning")
+        text = " ".join(each for each in words if each)
+        self._ask("Put this back-up into the controller?", text, [("Restore", answer)], "warning")
 
     def _keep_first(self, wanted: Backup, controller: Controller) -> None:
         self._keeping.before("before a restore", lambda _: self._restore(wanted, controller))

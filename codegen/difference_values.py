@@ -60,7 +60,9 @@ def register_text(key: Key, value: int, setup: Setup) -> str:
     name, axis = key
     unit = COMMANDS[name].unit if name in COMMANDS else ""
     plain = counts_text(BY_COMMAND[name], value) if name in BY_COMMAND else number_text(value)
-    if plain == "off" or unit in ("flag", "code", "ratio", ""):
+    if unit == "flag":
+        return "yes" if value else "no"
+    if plain == "off" or unit in ("code", "ratio", ""):
         return plain
     if unit in LENGTHS and axis and axis in setup.letters and setup.axis(axis).is_set_up:
         there = setup.from_counts(LENGTHS[unit], axis, Fraction(value, ONE))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from codegen.difference_values import number_text
 from codegen.models import MODELS
 from codegen.twoletter.commands import COMMANDS
+from codegen.twoletter.fixed import ONE
 from device.backup import Backup, per_axis
 from device.backup_kept import Kept
 
@@ -34,7 +34,7 @@ def _parts(backup: Backup) -> Iterator[Part]:
     yield Part("Parameters", tuple(_parameter(backup, name, axes) for name in backup.parameters))
     lines = backup.program.split("\n") if backup.program else []
     yield Part("Program", tuple(f"{number:4}  {line}" for number, line in enumerate(lines)), code=True)
-    yield Part("Variables", tuple(f"{name} = {number_text(value)}" for name, value in backup.variables.items()))
+    yield Part("Variables", tuple(f"{name} = {_short(value)}" for name, value in backup.variables.items()))
     yield Part("Arrays", tuple(_array(name, values) for name, values in backup.arrays.items()))
     yield Part("Not in it", tuple(missing(backup)))
 
@@ -62,13 +62,18 @@ def serial_words(serial: int | None) -> str:
 def _parameter(backup: Backup, name: str, axes: str) -> str:
     row, values = COMMANDS[name], backup.parameters[name]
     if not per_axis(name):
-        return f"{row.title} ({name}): {number_text(values[0])}"
-    each = ", ".join(f"{axis} {number_text(value)}" for axis, value in zip(axes, values, strict=False))
+        return f"{row.title} ({name}): {_short(values[0])}"
+    each = ", ".join(f"{axis} {_short(value)}" for axis, value in zip(axes, values, strict=False))
     return f"{row.title} ({name}): {each}"
 
 
+def _short(value: int) -> str:
+    """With at most four places, as the controller prints; the file keeps every bit."""
+    return f"{value / ONE:.4f}".rstrip("0").rstrip(".")
+
+
 def _array(name: str, values: Sequence[int]) -> str:
-    first = ", ".join(number_text(value) for value in values[:MOST_ELEMENTS])
+    first = ", ".join(_short(value) for value in values[:MOST_ELEMENTS])
     return f"{name}[{len(values)}]: {first}{' …' if len(values) > MOST_ELEMENTS else ''}"
 
 

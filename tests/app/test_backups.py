@@ -63,6 +63,7 @@ def test_before_a_download_the_old_program_and_its_variables_are_kept(stage: Sta
     assert rig.program == code(stage)
 
 
+@pytest.mark.long
 def test_what_a_quick_back_up_leaves_out_is_named(stage: Stage) -> None:
     """An array is never read before a download, which does not touch it."""
     rig = same_model(stage, "machine", program="#A\nDM P[100]\nEN")
@@ -74,7 +75,7 @@ def test_what_a_quick_back_up_leaves_out_is_named(stage: Stage) -> None:
     assert "Left out to keep the download quick" in window.inside.toPlainText()
 
 
-@pytest.mark.parametrize("known", [True, False])
+@pytest.mark.parametrize("known", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_a_download_takes_at_most_a_moment_longer(stage: Stage, known: bool) -> None:
     """At 19 200 baud, a small machine with twenty variables; the parameters of one axis fit into the moment."""
     lines = ["#A", *(f"V{number}={number}" for number in range(20)), "EN"]
@@ -91,6 +92,7 @@ def test_a_download_takes_at_most_a_moment_longer(stage: Stage, known: bool) -> 
     assert len(load(kept(folder(stage))[0].path).variables) == 20
 
 
+@pytest.mark.long
 def test_an_empty_controller_and_the_same_once_more_keep_nothing(stage: Stage) -> None:
     same_model(stage, "machine")
     stage.download()
@@ -100,6 +102,7 @@ def test_an_empty_controller_and_the_same_once_more_keep_nothing(stage: Stage) -
     assert len(kept(folder(stage))) == 1
 
 
+@pytest.mark.long
 def test_before_a_burn_everything_is_kept(stage: Stage) -> None:
     with_old_program(stage)
     stage.download()
@@ -126,6 +129,7 @@ def test_where_nothing_can_be_kept_the_download_asks(stage: Stage, tmp_path: Pat
     assert rig.program == code(stage)
 
 
+@pytest.mark.long
 def test_cancelling_the_back_up_cancels_the_download(stage: Stage) -> None:
     rig = with_old_program(stage)
     stage.studio.run.download()
@@ -138,6 +142,7 @@ def test_cancelling_the_back_up_cancels_the_download(stage: Stage) -> None:
     assert "nothing was changed in the controller" in " ".join(stage.studio.messages.texts())
 
 
+@pytest.mark.long
 def test_fifty_are_kept_of_each_controller(stage: Stage) -> None:
     rig = with_old_program(stage)
     stage.download()
@@ -215,6 +220,7 @@ def test_another_model_is_refused_with_what_does_not_fit(stage: Stage, tmp_path:
     assert "does not fit" in window.buttons["Restore…"].toolTip()
 
 
+@pytest.mark.long
 def test_in_watch_a_back_up_can_be_taken_but_not_put_back(stage: Stage) -> None:
     rig = with_old_program(stage)
     rig.controller.release_control()
@@ -258,6 +264,7 @@ def test_the_steps_to_replace_a_controller_are_guided(stage: Stage) -> None:
     assert stage.studio.proof.comparing.window.isVisible()
 
 
+@pytest.mark.long
 def test_offline_the_window_says_so_and_is_reachable_by_keys(stage: Stage) -> None:
     window = window_of(stage)
     assert window.who.text() == "Nothing is connected"

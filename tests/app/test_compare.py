@@ -78,6 +78,7 @@ def test_the_badge_tells_of_controller_and_eeprom(stage: Stage) -> None:
     assert "as burned from here on " in stage.studio.window.run_bar.badge.toolTip()
 
 
+@pytest.mark.long
 def test_a_burn_by_hand_makes_the_eeprom_unknown(stage: Stage) -> None:
     burned(stage)
     assert badge(stage) == "✓ In the controller, burned"
@@ -96,6 +97,7 @@ def test_what_was_burned_is_remembered_by_the_serial_number(stage: Stage) -> Non
     assert badge(stage) == "✓ In the controller, burned"
 
 
+@pytest.mark.long
 def test_a_controller_without_serial_number_is_not_taken_for_the_same(stage: Stage) -> None:
     rig = same_model(stage, "machine")
     rig.simulation.unit.profile = dc.replace(rig.simulation.unit.profile, serial_number=0)
@@ -126,6 +128,7 @@ def test_differences_are_sentences_of_instructions(stage: Stage) -> None:
     assert stage.studio.program.current_step() == step
 
 
+@pytest.mark.long
 def test_what_is_not_burned_is_said(stage: Stage) -> None:
     burned(stage)
     change_the_move(stage)
@@ -172,6 +175,7 @@ def test_while_a_question_waits_nothing_is_read(stage: Stage) -> None:
     assert "waits for an answer" in window.read.toolTip()
 
 
+@pytest.mark.long
 def test_while_a_program_runs_the_controller_can_be_compared(stage: Stage) -> None:
     rig = same_model(stage)
     rig.simulation.stimulus("in1", 0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextDocument
 from PySide6.QtTest import QTest
@@ -109,6 +110,7 @@ def test_the_pack_has_everything_and_a_header_on_every_page(stage: Stage, tmp_pa
     preview.close()
 
 
+@pytest.mark.long
 def test_the_pack_says_what_was_compared(stage: Stage) -> None:
     same_model(stage)
     stage.download()

@@ -36,6 +36,9 @@ STEPS = (
 )  # fmt: skip
 
 
+WIDTH = 472  # px of the words
+
+
 class Replacing(QDialog):
     """Not modal: the list stays open beside everything else."""
 
@@ -88,7 +91,9 @@ class Replacing(QDialog):
     def _add(self, grid: QGridLayout, number: int, step: ReplaceStep) -> None:
         words = QLabel(step.words)
         words.setWordWrap(True)
+        words.setFixedSize(WIDTH, words.heightForWidth(WIDTH) + 8)  # a grid reckons with too few lines
         grid.addWidget(QLabel(str(number + 1)), number, 0, Qt.AlignmentFlag.AlignTop)
+        words.setAlignment(Qt.AlignmentFlag.AlignTop)
         grid.addWidget(words, number, 1)
         if step.button:
             button = QPushButton(step.button)

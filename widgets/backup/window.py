@@ -28,6 +28,7 @@ from widgets.panel import set_text
 from widgets.parts.look import look
 
 HEIGHT = 32  # px of a row
+GAP = 20  # px between columns
 EMPTY = (
     "Nothing is kept of this controller yet. “Back up now” reads everything it holds; before every download, burn and "
     "restore a back-up is made by itself."
@@ -62,7 +63,7 @@ class BackupWindow(QDialog):
         self.fit.setProperty("role", "quiet")
         self.note = QLineEdit()
         self.note.setAccessibleName("Note for the next back-up")
-        self.note.setPlaceholderText("Note for the next back-up, for example: before the new gearbox")
+        self.note.setPlaceholderText("Note, for example: new gearbox")
         self.list = self._make_list()
         self.inside, self.compared = _page("What is in the back-up"), _page("Compared with the controller")
         self.tabs = QTabWidget()
@@ -94,7 +95,8 @@ class BackupWindow(QDialog):
         self.list.clear()
         for texts in rows:
             item = QTreeWidgetItem(list(texts))
-            item.setSizeHint(0, QSize(0, HEIGHT))
+            for column, text in enumerate(texts):
+                item.setSizeHint(column, QSize(self.list.fontMetrics().horizontalAdvance(text) + GAP, HEIGHT))
             item.setToolTip(2, texts[2])
             self.list.addTopLevelItem(item)
         if rows:
@@ -164,6 +166,7 @@ class BackupWindow(QDialog):
     def _lay_out(self) -> None:
         left = QWidget()
         column = _column(left, 0)
+        column.setContentsMargins(0, 0, 8, 0)
         first = QHBoxLayout()
         first.addWidget(self.note, 1)
         first.addWidget(self.buttons["Back up now"])
@@ -176,6 +179,7 @@ class BackupWindow(QDialog):
         column.addLayout(below)
         right = QWidget()
         column = _column(right, 0)
+        column.setContentsMargins(8, 0, 0, 0)
         column.addWidget(self.fit)
         column.addWidget(self.tabs, 1)
         acts = QHBoxLayout()

@@ -137,10 +137,10 @@ def _plain(text: str) -> QPushButton:
 
 def _shape(sentence: str) -> str:
     """State by a shape as well as by the word."""
-    if "not known" in sentence:
-        return "?"
     wrong = ("differ", "otherwise", "There is no program", "Not burned")
-    return "≠" if any(each in sentence for each in wrong) else "✓"
+    if any(each in sentence for each in wrong):
+        return "≠"
+    return "?" if "not known" in sentence else "✓"
 
 
 def _table(name: str) -> QTableWidget:
@@ -153,7 +153,12 @@ def _table(name: str) -> QTableWidget:
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setTabKeyNavigation(False)
     table.setWordWrap(True)
-    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+    header = table.horizontalHeader()
+    header.setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+    header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+    header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+    header.setHighlightSections(False)
+    table.setStyleSheet("QTableWidget::item { padding: 6px 8px; }")
     return table
 
 

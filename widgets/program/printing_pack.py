@@ -10,6 +10,7 @@ from PySide6.QtGui import QTextDocument
 from codegen.document import Document
 from codegen.fields import Context, fields_of, is_shown
 from codegen.models import MODELS
+from codegen.setup_differences import NOT_SET
 from widgets.program.printing import code_html, make_pages, program_html
 from widgets.program.words import Words
 
@@ -19,7 +20,7 @@ AXIS_PARTS = (
                 "maximum_acceleration")),
     ("Gains", ("kp", "ki", "kd", "fv", "fa", "integrator_limit", "offset", "smoothing")),
 )  # fmt: skip
-NOT_SET = "as the controller has it"
+SPACE = "<p style='font-size: 5pt'>&nbsp;</p>"
 CHECKS = (
     "Emergency stop: takes the power from the drives, independent of controller and computer",
     "Supply and earthing of controller and drives as in the wiring plan",
@@ -71,13 +72,16 @@ def _cover(document: Document, date: str, proof: Sequence[str]) -> str:
         ("Printed", date),
     ]
     table = "".join(
-        f"<tr><td class='quiet'>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in rows if text
+        f"<tr><td class='quiet' width='28%'>{escape(name)}</td><td>{escape(text)}</td></tr>"
+        for name, text in rows
+        if text
     )
-    changes = f"<h2>Changes</h2><p>{_lines(handover.changes)}</p>" if handover.changes.strip() else ""
-    notes = f"<h2>Notes</h2><p>{_lines(document.notes)}</p>" if document.notes.strip() else ""
-    proved = f"<h2>Compared with the controller</h2><p>{_lines(chr(10).join(proof))}</p>" if proof else ""
+    changes = f"{SPACE}<h2>Changes</h2><p>{_lines(handover.changes)}</p>" if handover.changes.strip() else ""
+    notes = f"{SPACE}<h2>Notes</h2><p>{_lines(document.notes)}</p>" if document.notes.strip() else ""
+    proved = f"{SPACE}<h2>Compared with the controller</h2><p>{_lines(chr(10).join(proof))}</p>" if proof else ""
     title = escape(program.name or "Program")
-    return f"<h1>Handover: {title}</h1><table cellspacing='0'>{table}</table>{changes}{notes}{proved}"
+    facts = f"<table width='100%' cellspacing='0' cellpadding='3'>{table}</table>"
+    return f"<h1>Handover: {title}</h1>{facts}{changes}{notes}{proved}"
 
 
 def _lines(text: str) -> str:
@@ -91,7 +95,7 @@ def _axes(document: Document, names: Sequence[str]) -> str:
         return ""
     head = "".join(f"<td><b>{letter}</b></td>" for letter in setup.letters)
     rows = "".join(_axis_row(document, name) for name in names)
-    return f"<table width='100%' cellspacing='0'><tr><td></td>{head}</tr>{rows}</table>"
+    return f"<table width='100%' cellspacing='0' cellpadding='3'><tr><td></td>{head}</tr>{rows}</table>"
 
 
 def _axis_row(document: Document, name: str) -> str:
@@ -110,8 +114,8 @@ def _axis_row(document: Document, name: str) -> str:
             text = NOT_SET
         else:
             text = field.text(value, Context(setup, letter))
-        cells.append(f"<td>{escape(text)}</td>")
-    return f"<tr><td class='quiet'>{escape(label)}</td>{''.join(cells)}</tr>"
+        cells.append(f"<td width='18%'>{escape(text)}</td>")
+    return f"<tr><td class='quiet' width='28%'>{escape(label)}</td>{''.join(cells)}</tr>"
 
 
 def _names(document: Document) -> str:
@@ -120,14 +124,15 @@ def _names(document: Document) -> str:
         return ""
     both = (("Input", setup.input_names, setup.inputs), ("Output", setup.output_names, setup.outputs))
     return "".join(
-        f"<h2>{what}s</h2><table cellspacing='0'>{''.join(_channels(what, names[:count]))}</table>"
+        f"{SPACE}<h2>{what}s</h2><table width='100%' cellspacing='0' cellpadding='3'>"
+        f"{''.join(_channels(what, names[:count]))}</table>"
         for what, names, count in both
     )
 
 
 def _channels(what: str, names: Sequence[str]) -> Iterator[str]:
     for number, name in enumerate(names):
-        yield f"<tr><td class='quiet'>{what} {number + 1}</td><td>{escape(name) or '–'}</td></tr>"
+        yield f"<tr><td class='quiet' width='28%'>{what} {number + 1}</td><td>{escape(name) or '–'}</td></tr>"
 
 
 def _checklist() -> str:
