@@ -196,7 +196,7 @@ def run(options: argparse.Namespace) -> int:
     complete(path, loaded.text, loaded.listing)
     name = options.stimulus or str(loaded.path)
     text = read_text(Path(options.stimulus)) if options.stimulus else loaded.stimulus
-    happenings = read_stimulus(text, name, loaded.model) if text.strip() else []
+    happenings = read_stimulus(text, name, loaded.model) if options.stimulus or text.strip() else []
     outcome = perform(loaded, options, happenings, None if options.json else print)
     for notice in outcome.state.get("notices", ()):
         print(f"twoletter: {notice}", file=sys.stderr)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from app.cli.failure import DONE, Failure
 from app.cli.run import read_plants
-from app.cli.sources import DEFAULT_MODEL, read_profile, said_of
+from app.cli.sources import DEFAULT_MODEL, read_profile, said_of, target
 from codegen.models import model
 from device.simulator.eeprom import Eeprom, EepromUnreadable, read_eeproms
 from device.simulator.lines import open_line, open_second
@@ -40,6 +40,8 @@ def end_when_interrupted() -> None:
 
 def eeproms_of(path: str | None, count: int) -> list[Eeprom]:
     """What keeps the burned data of each controller."""
+    if path:
+        target(path)  # nothing is written yet: better said now than at the first burn
     try:
         return read_eeproms(Path(path) if path else None, count)
     except (EepromUnreadable, OSError) as problem:

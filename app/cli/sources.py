@@ -47,16 +47,17 @@ def sentence(problem: OSError) -> str:
 
 
 def read_text(path: Path) -> str:
-    """A text file, whatever its encoding."""
+    """A text file, whatever its encoding; a lone carriage return ends a line too, as controllers send it."""
     readable(path)
     try:
         data = path.read_bytes()
     except OSError as problem:
         raise Failure(f"{path}: {sentence(problem)}") from problem
     try:
-        return data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        text = data.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def readable(path: Path) -> None:

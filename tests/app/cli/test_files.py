@@ -217,6 +217,12 @@ def test_import_loses_nothing(text: str, write: Write, tmp_path: Path, capsys: S
     assert "cut.tlp" in capsys.readouterr().out
 
 
+def test_a_lone_carriage_return_ends_a_line(write: Write, capsys: Said) -> None:
+    path = write("cr.dmc", "#A\rPR 100\rPR 99999999999\rEN\r")
+    assert main(["check", path]) == 1
+    assert capsys.readouterr().out.startswith(f"{path}:3:4: error ")
+
+
 def test_import_does_not_overwrite(write: Write, tmp_path: Path, capsys: Said) -> None:
     out = write("cut.tlp", "mine")
     assert main(["import", write("cut.dmc", SOURCE), "-o", out]) == 2

@@ -145,6 +145,7 @@ def test_typed_answers_and_outside_forces(write: Write, capsys: Said) -> None:
     ("text", "words"),
     [
         ("0,in1,0\n", "first line"),
+        ("", "first line"),
         ("ms,signal,value\n0,in99,1\n", "no signal in99"),
         ("ms,signal,value\n10,in1,1\n5,in1,0\n", "line 3: not in time order"),
         ("ms,signal,value\nsoon,in1,1\n", "line 2"),
@@ -302,6 +303,7 @@ def test_the_same_run_gives_the_same_bits(write: Write, tmp_path: Path, capsys: 
         (["run", CUTTER, "--time", "inf"], "--time"),
         (["run", CUTTER, "--trace", "no/such/folder/t.csv"], "no folder"),
         (["simulate", "--eeprom", "."], "."),
+        (["simulate", "--eeprom", "missing/eeprom"], "there is no folder missing"),
         (["compile", "missing.dmc"], "missing.dmc: no such file"),
         (["run", ".", "--time", "1"], "is a folder"),
         (["run", CUTTER, "--trace", "t.doc"], ".npz"),
