@@ -299,6 +299,7 @@ def _states(stage: Stage) -> Iterator[tuple[str, QWidget]]:
 
 def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     from app.crash import CrashDialog
+    from tests.setup_pictures import setup_scenes
 
     studio = stage.studio
     desk, start = studio.desk, studio.start
@@ -312,8 +313,7 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "serial-setup", start.serial
     studio.options.show()
     yield "settings", studio.options.page
-    yield from _setup(stage)
-    yield from _proof(stage)
+    yield from setup_scenes(stage)
     answers: list[tuple[str, Callable[[], None]]] = [("Download and execute", lambda: None), ("Run it", lambda: None)]
     desk.ask("Which program?", "The program was changed since it was downloaded.", answers, "warning")
     yield "question", desk.question
@@ -325,7 +325,6 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go(30)
     yield "leaving", desk.question
     yield from _unsaved(stage)
-    yield from _program_window(stage)
     desk.show_upload("#A\nPR 6370\nBG X\nEN\n")
     yield "upload", desk.upload
     desk.show_help("Program window")
@@ -335,97 +334,6 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "display-floating", studio.window.docks["Display"]
     studio.window.docks["Display"].setFloating(False)
     studio.desk.arrange("Program")
-
-
-def _proof(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    """What differs between file, controller and EEPROM; back-ups; handover."""
-    import dataclasses as dc
-
-    from codegen.handover import Handover
-    from codegen.instructions import SingleAxisMove
-
-    studio = stage.studio
-    session, proof = studio.session, studio.proof
-    opened = session.document
-    handover = Handover("J. Smith", "C", "2026-11-22", "C: longer stroke\nB: first delivery")
-    session.set_document(dc.replace(opened, handover=handover), "Page")
-    rig = stage.connect("machine", opened.setup.model)
-    stage.download()
-    rig.controller.burn_program()
-    stage.go(90)
-    proof.eeprom.burned()
-    step = next(each for each in session.document.program.steps() if isinstance(each.instruction, SingleAxisMove))
-    session.replace(step.id, dc.replace(step.instruction, distance="12"))
-    rig.type("KP 9", "LEN=3.25")
-    session.set_setup(opened.setup.with_axis("X", dc.replace(opened.setup.axis("X"), kp="12.25", forward_limit="40")))
-    proof.comparing.show()
-    proof.comparing.read()
-    stage.until(lambda: not studio.run.doing)
-    stage.go()
-    yield "compare", proof.comparing.window
-    window = proof.comparing.window
-    assert window is not None
-    window.tabs.setCurrentIndex(1)
-    yield "compare-setup", window
-    proof.backups.show()
-    proof.keeping.now("before the new gearbox")
-    stage.until(lambda: not studio.run.doing)
-    stage.go()
-    yield "back-ups", proof.backups.window
-    rig.type("KP 10")
-    proof.backups.compare()
-    stage.until(lambda: not studio.run.doing)
-    stage.go()
-    yield "back-ups-compared", proof.backups.window
-    proof.backups.ask_restore()
-    yield "restore", studio.desk.question
-    proof.backups.show_replacing()
-    stage.go()
-    yield "replace", proof.backups.replacing
-    proof.handing.show()
-    yield "handover", proof.handing.page
-    proof.handing.show_pack()
-    yield "handover-pack", proof.handing.preview
-    stage.go()
-    yield "window-not-burned", studio.window
-    session.set_document(opened, "Page")
-
-
-def _setup(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    """Every page of the setup, what differs from a controller, the calculator, and the question about the scale."""
-    import dataclasses as dc
-
-    studio = stage.studio
-    before = studio.session.document
-    studio.session.set_setup(dc.replace(before.setup, model="ssc2"))
-    rig = stage.connect("machine", "ssc2")
-    rig.controller.take_control()
-    rig.type("KP 12.5", "FL 20000", "MT ,-1")
-    studio.setup.show()
-    stage.go()
-    window = studio.setup.window
-    assert window is not None
-    for page in window.pages[:-1]:
-        window.open_page(page)
-        stage.go()
-        yield f"setup-{page.title.lower().replace(' ', '-')}", window
-    window.read.click()
-    stage.until(lambda: bool(window.comparing.readings))
-    stage.go()
-    yield "setup-compared", window
-    window.open_page(window.servo)
-    yield "setup-servo-compared", window
-    window.open_page(window.axes)
-    window.axes.rows["X"].work_out.click()
-    assert window.axes.calculator is not None
-    window.axes.calculator.form.cells["pitch", ""].editor.setText("7")
-    window.axes.calculator.form.cells["pitch", ""].editor.textEdited.emit("7")
-    yield "setup-calculator", window.axes.calculator
-    window.axes.calculator.take.click()
-    window.done_button.click()
-    yield "setup-scale-changed", window
-    window.reject()
-    studio.session.undo()
 
 
 def _unsaved(stage: Stage) -> Iterator[tuple[str, QWidget]]:
@@ -448,44 +356,6 @@ def _unsaved(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "file-changed", studio.window
     path.write_text(text, encoding="utf-8")
     _until_bar(stage, False)
-
-
-def _program_window(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    """A module whose names clash, and a slowed run: the question before, and where it is called slowed."""
-    from app.importing import Importing
-    from codegen import files
-    from codegen.document import Document
-    from codegen.instructions import Label, MathematicalEquation, UserInterface
-    from codegen.instructions.math import Equation
-    from codegen.program import Program, Step
-
-    studio = stage.studio
-    path = studio.session.path
-    assert path is not None
-    studio.session.insert([UserInterface(prompt="Length?", variable="LEN")])
-    count = MathematicalEquation(equations=(Equation(variable="LEN", expression="LEN+1"),))
-    module = path.with_name("teach.tlp")
-    steps = (Step("a", Label(name="A")), Step("b", count))
-    files.save(module, Document(Program("TEACH", main=steps), studio.session.document.setup))
-    importing: Importing = studio.importing
-    importing.take(module)
-    assert importing.shown is not None
-    yield "import-module", importing.shown
-    importing.shown.reject()
-    studio.session.undo()
-    stage.connect("simulator", studio.model()).controller.take_control()
-    studio.run.execute_slowly(25)
-    stage.until(lambda: studio.desk.question is not None and "25 %" in studio.desk.question.words)
-    assert studio.desk.question is not None
-    yield "slow-question", studio.desk.question
-    studio.desk.question.buttons["Download and execute at 25 %"].click()
-    stage.until(lambda: 0 in studio.program.code.executing)
-    studio.program.trace()
-    stage.go(10)
-    yield "slow-run", studio.window
-    studio.program.trace()
-    studio.run.halt()
-    stage.go(20)
 
 
 def _until_bar(stage: Stage, shown: bool) -> None:
