@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -13,9 +13,11 @@ from tests.stage import Stage, make_studio
 
 
 @pytest.fixture
-def stage(qtbot: QtBot, tmp_path: Path) -> Stage:
+def stage(qtbot: QtBot, tmp_path: Path) -> Iterator[Stage]:
     """A studio that is offline."""
-    return make_studio(tmp_path)
+    stage = make_studio(tmp_path)
+    yield stage
+    stage.clear_away()
 
 
 def watched(stage: Stage, *texts: str) -> list[Mapping[str, float | str]]:

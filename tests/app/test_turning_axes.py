@@ -34,4 +34,4 @@ def test_an_axis_is_turned_by_its_letter(qtbot: QtBot, tmp_path: Path) -> None:
     session.undo()
     assert not session.document.setup.axis("X").mirrored and "CR 100,30,90" in session.listing.text
     dialog.reject()
-    stage.studio.close()
+    stage.clear_away()
