@@ -15,12 +15,12 @@ from device import commands, jog, live
 from device.asking import Listing, Prompt, Waiting
 from device.clock import Clock
 from device.commands import Reply
-from device.door import Door, choose
+from device.door import Door
 from device.download import Downloaded, DownloadFailed, Job, program_lines
 from device.events import Event, EventList, What
 from device.hands import Io, Memory
 from device.happenings import Badge, Kind, Notice, NoticeKind, State
-from device.identify import Identity, mismatch, read_once, who
+from device.identify import Identity, mismatch, who
 from device.jog import Places, Plan, Routine
 from device.lease import Ran
 from device.link import Link, Traffic
@@ -32,8 +32,7 @@ from device.ring import EMPTY, Row
 from device.stop import NO_ANSWER_S, Stopping, StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
-from device.wire import Kind as AnswerKind
-from device.wire import Manners, Prompts, Shape, nonces
+from device.wire import Manners, nonces
 
 if TYPE_CHECKING:
     import numpy as np
@@ -313,16 +312,7 @@ class Controller:
 
     def read(self, *expressions: str) -> Future[tuple[float, ...]]:
         """Reads expressions (`_KPX`, `V1`) right under any number format; refused ones raise Refused."""
-        return self.run(self._read_steps(expressions), Priority.POLL, "user")
-
-    def _read_steps(self, expressions: tuple[str, ...]) -> Steps[tuple[float, ...]]:
-        values: list[float] = []
-        for expression in expressions:
-            answer = yield from read_once(self.nonces, (expression, Shape(10, 4)))
-            if answer.kind is not AnswerKind.VALUES:
-                raise (yield from commands.reason(self, answer, expression))
-            values += answer.values
-        return tuple(values)
+        return self.run(commands.read(self, expressions), Priority.POLL, "user")
 
     def run(self, steps: Steps[T], priority: Priority, source: str, *, address: bool = True) -> Future[T]:
         """Puts steps on the link; in a daisy chain the address goes before them."""
@@ -332,17 +322,8 @@ class Controller:
             future.set_exception(LinkLost("Offline: there is no controller. Connect first."))
             return future
         if address and self.line.address is not None:
-            steps = self._addressed(self.line.address, steps)
+            steps = commands.addressed(self, self.line.address, steps)
         return self.link.submit(steps, priority, source).future
-
-    def _addressed(self, address: int, steps: Steps[T]) -> Steps[T]:
-        """`%n` first: whoever talked on the line meanwhile may have chosen another (dmc-1412-1414.txt l.1305)."""
-        if not self.waiting.question:
-            choice = yield Send(choose(address), Prompts(1), 1.0)
-            if choice.kind is AnswerKind.SILENT:
-                steps.close()
-                raise LinkLost(f"No controller with address {address} answers in the chain.")
-        return (yield from steps)
 
     def answer(self, text: str) -> Future[None]:
         """Answers the question of the program that waits."""

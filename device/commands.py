@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
@@ -12,16 +13,17 @@ from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.slow_mark import BURNS, FULL, percent_of
 from device.asking import Listing
-from device.door import LISTS, only_reads
+from device.door import LISTS, choose, only_reads
 from device.download import proved, upload_steps
-from device.identify import fence
+from device.identify import fence, read_once
 from device.stop import StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Refused, Send, Steps, data_line
-from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, Upload, framed
+from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, Shape, Upload, framed
 
 if TYPE_CHECKING:
     from device.api import Controller
 
+T = TypeVar("T")
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
 TELLING = LISTS | {"MG"} | {row.name for row in COMMANDS.values() if row.tells}
 ENTRY = frozenset(["DL", "ED", "QD"])
@@ -154,6 +156,27 @@ def _judged(
     wire.strip_question()
     words = ERROR_TEXTS.get(code, "unknown error")
     return Reply("", False, True, code, f"{command}: refused, error {code}, {words}.")
+
+
+def addressed(controller: Controller, address: int, steps: Steps[T]) -> Steps[T]:
+    """`%n` first: whoever talked on the line meanwhile may have chosen another (dmc-1412-1414.txt l.1305)."""
+    if not controller.waiting.question:
+        choice = yield Send(choose(address), Prompts(1), 1.0)
+        if choice.kind is Kind.SILENT:
+            steps.close()
+            raise LinkLost(f"No controller with address {address} answers in the chain.")
+    return (yield from steps)
+
+
+def read(controller: Controller, expressions: Sequence[str]) -> Steps[tuple[float, ...]]:
+    """Expressions one by one, each framed; a refused one raises Refused."""
+    values: list[float] = []
+    for expression in expressions:
+        answer = yield from read_once(controller.nonces, (expression, Shape(10, 4)))
+        if answer.kind is not Kind.VALUES:
+            raise (yield from reason(controller, answer, expression))
+        values += answer.values
+    return tuple(values)
 
 
 def reason(controller: Controller, answer: Answer, expression: str) -> Steps[LinkError]:
