@@ -130,7 +130,7 @@ class Interpreter:
         if not ready:
             state.command_at = -1
             return
-        unit.changed = False
+        unit.changed, unit.stalled = False, 0  # an echo that found no room is nobody's command
         plain = not any(isinstance(strand, Port) for strand in ready) and not self._traces()
         if plain:
             self._burst(ready, limit, watched=self._watching())

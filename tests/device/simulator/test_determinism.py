@@ -156,7 +156,10 @@ def fuzz(seed: int, slices: bool) -> Any:
     return facts(bench)
 
 
-@pytest.mark.parametrize("seed", range(count(12, 2000)))
+ECHO_WITHOUT_ROOM = 1237  # an echo found the output full, and a thread had to wait for it
+
+
+@pytest.mark.parametrize("seed", sorted({*range(count(12, 2000)), ECHO_WITHOUT_ROOM}))
 def test_any_program_runs_the_same_in_any_slices(seed: int) -> None:
     assert fuzz(seed, slices=True) == fuzz(seed, slices=False)
     here = "pytest tests/device/simulator/test_determinism.py"
