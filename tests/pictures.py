@@ -159,6 +159,8 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     """A rounded rectangle as the X-Y view saw it."""
     import dataclasses as dc
 
+    from tests.panel_pictures import doctor_scenes, event_scenes
+
     studio, document = stage.studio, stage.studio.session.document
     axis = dc.replace(document.setup.axes[0], reverse_limit="-5", forward_limit="25")
     setup = dc.replace(document.setup, model="ssc2", axes=(axis,) * 4)
@@ -173,51 +175,8 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from _jog(stage)
     yield from _operator(stage)
     yield from _values(stage)
-    yield from _events(stage)
-    yield from _doctor(stage)
-
-
-def _events(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    """A limit, an error of a program and a STOP; the first is selected."""
-    stage.studio.desk.bring("Events")
-    rig = stage.rig
-    rig.type("SH", "JG 20000;BG X")
-    stage.go(60)
-    rig.simulation.stimulus("fls_x", 0)
-    stage.go(60)
-    rig.simulation.stimulus("fls_x", 1)
-    rig.start("#A\nMO\nWT 500\nBG X\nEN")
-    stage.go(90)
-    stage.controller.stop()
-    stage.go(30)
-    stage.studio.event_list.table.selectRow(1)
-    stage.go()
-    yield "panel-events", stage.studio.window
-
-
-def _doctor(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    """Before, meanwhile, and the two sorts of answer."""
-    from codegen.rates import setting_words
-
-    desk = stage.studio.doctor
-    desk.show()
-    window = desk.window
-    assert window is not None
-    stage.go()
-    yield "doctor", window
-    window.show_busy("Asking at 19200 baud", 0.4)
-    stage.go()
-    yield "doctor-busy", window
-    there = setting_words(19200, None)
-    sentence = f"The controller at /dev/ttyUSB0 answers at 19200 baud ({there}), not at 9600."
-    window.show_diagnosis(sentence, ("Choose 19200 baud here.", "Or set the controller to 9600 baud."), 19200, False)
-    stage.go()
-    yield "doctor-speed", window
-    steps = ("Is the controller switched on? Its power light must be lit.", "Use a straight-through cable.")
-    window.show_diagnosis("Nothing answers at /dev/ttyUSB0, at no speed.", steps, None, False)
-    stage.go()
-    yield "doctor-silence", window
-    window.close()
+    yield from event_scenes(stage)
+    yield from doctor_scenes(stage)
 
 
 def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:

@@ -25,7 +25,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     made.studio.desk.bring("Events")
     made.go()
     yield made
-    made.studio.close()
+    made.clear_away()
 
 
 def words(stage: Stage) -> str:

@@ -1,0 +1,51 @@
+"""Scenes of single panels, for pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from PySide6.QtWidgets import QWidget
+
+from codegen.rates import setting_words
+from tests.stage import Stage
+
+
+def event_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """A limit, an error of a program and a STOP; the first is selected."""
+    stage.studio.desk.bring("Events")
+    rig = stage.rig
+    rig.type("SH", "JG 20000;BG X")
+    stage.go(60)
+    rig.simulation.stimulus("fls_x", 0)
+    stage.go(60)
+    rig.simulation.stimulus("fls_x", 1)
+    rig.start("#A\nMO\nWT 500\nBG X\nEN")
+    stage.go(90)
+    stage.controller.stop()
+    stage.go(30)
+    stage.studio.event_list.table.selectRow(1)
+    stage.go()
+    yield "panel-events", stage.studio.window
+
+
+def doctor_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """Before, meanwhile, and the two sorts of answer."""
+    desk = stage.studio.doctor
+    desk.show()
+    window = desk.window
+    assert window is not None
+    stage.go()
+    yield "doctor", window
+    window.show_busy("Asking at 19200 baud", 0.4)
+    stage.go()
+    yield "doctor-busy", window
+    there = setting_words(19200, None)
+    sentence = f"The controller at /dev/ttyUSB0 answers at 19200 baud ({there}), not at 9600."
+    window.show_diagnosis(sentence, ("Choose 19200 baud here.", "Or set the controller to 9600 baud."), 19200, False)
+    stage.go()
+    yield "doctor-speed", window
+    steps = ("Is the controller switched on? Its power light must be lit.", "Use a straight-through cable.")
+    window.show_diagnosis("Nothing answers at /dev/ttyUSB0, at no speed.", steps, None, False)
+    stage.go()
+    yield "doctor-silence", window
+    window.close()
