@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QDate, QPoint, Qt, Signal
@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidg
 from codegen import read
 from codegen.document import Document
 from codegen.generate import Listing
-from codegen.instructions import Comment, Instruction, Subroutine, TwoLetterCode
-from codegen.program import Section, Step, end_of, find
+from codegen.instructions import Comment, Instruction, TwoLetterCode
+from codegen.program import Section, Step, find
 from widgets.form.inspector import Inspector
 from widgets.form.offers import LiveValues, offers_of
 from widgets.program import clipboard
@@ -24,10 +24,11 @@ from widgets.program.dialogs import Dialogs
 from widgets.program.find_bar import FindBar
 from widgets.program.finding import Finding
 from widgets.program.header import Header
-from widgets.program.insertion_bar import InsertionBar
+from widgets.program.insertion_bar import InsertionBar, next_place
 from widgets.program.model import ProgramModel
 from widgets.program.node import TITLES
 from widgets.program.palette import Palette
+from widgets.program.possible import reason_of, show_possible
 from widgets.program.problems import ProblemsPanel
 from widgets.program.running import Running
 from widgets.program.tree import ProgramTree
@@ -38,9 +39,6 @@ if TYPE_CHECKING:
     from widgets.program.editing import Editing
 
 MODES = ("program", "both", "code")
-NEEDS_STEP = frozenset(
-    {"modify", "comment_out", "view_code", "cut", "copy", "delete", "duplicate", "move_up", "move_down"}
-)
 
 
 class ProgramView(QWidget):
@@ -170,36 +168,11 @@ class ProgramView(QWidget):
 
     def can(self, name: str) -> str | None:
         """None when the command is possible now, else the reason in words."""
-        return self._reason(name, self.tree.chosen())
-
-    def _reason(self, name: str, chosen: Sequence[str]) -> str | None:
-        if name == "undo":
-            return None if self.session.can_undo else "Nothing to undo"
-        if name == "redo":
-            return None if self.session.can_redo else "Nothing to redo"
-        if name in NEEDS_STEP and not chosen:
-            return "Select a step first"
-        if name == "insert" and self.tree.current() is None:
-            return "Select the step to insert before"
-        if name == "end_of_repeat" and self.session.open_body is None and self.session.before is None:
-            return "New steps already go to the end"
-        if name == "paste" and not clipboard.has_steps():
-            return "Copy steps of a program first"
-        return None
+        return reason_of(name, self.session, self.tree, self.tree.chosen())
 
     def refresh_commands(self) -> None:
         """Greys what is not possible now and says why."""
-        chosen = self.tree.chosen()
-        for row in COMMANDS:
-            action, reason = self.commands[row.name], self._reason(row.name, chosen)
-            if action.isEnabled() != (reason is None) or action.statusTip() != (reason or row.help):
-                action.setEnabled(reason is None)
-                action.setStatusTip(reason or row.help)
-                action.setToolTip(f"{reason or row.help} ({row.keys})")
-        for name, label in (("undo", self.session.undo_text), ("redo", self.session.redo_text)):
-            self.commands[name].setText(f"{name.capitalize()}: {label}" if label else name.capitalize())
-        off = bool(chosen) and not any(self.step(step_id).enabled for step_id in chosen)
-        self.commands["comment_out"].setText("Bring back" if off else "Comment out")
+        show_possible(self.commands, self.session, self.tree)
 
     def step(self, step_id: str) -> Step:
         """A step of the document."""
@@ -379,22 +352,9 @@ class ProgramView(QWidget):
         self.tree.viewport().update()
 
     def _show_insertion(self) -> None:
-        session = self.session
-        name = session.before or session.open_body
-        if name is None or name not in self.model.nodes:
-            self.bar.show_text("")
-            self.delegate.next_place = ("", "")
-        else:
-            node, step = self.model.nodes[name], self.step(name)
-            holds = session.before is None or isinstance(step.instruction, Subroutine)
-            self.bar.show_text(f"New steps go {'inside' if holds else 'before'}: {self.words.english(step)}")
-            at = end_of(step).index if holds else 0
-            if holds and at == len(node.children):
-                mark = ("after", self.model.visible_of(node.children[-1].id if at else name))
-            else:
-                mark = ("before", self.model.visible_of(node.children[at].id if holds else name))
-            self.delegate.next_place = mark
-        self.bar.setVisible(self.mode != "code" and bool(self.bar.text.text()))
+        words, self.delegate.next_place = next_place(self.session, self.model, self.words)
+        self.bar.show_text(words)
+        self.bar.setVisible(self.mode != "code" and bool(words))
         self.tree.viewport().update()
         self.refresh_commands()
 
