@@ -123,10 +123,11 @@ def backup_steps(
     `running`: also while a program runs, to compare; its variables are then of different moments.
     """
     model = (yield from quiet(c, "Not backed up")) if not running else _readable(c, "Not compared")
-    quick, end = math.isfinite(budget_s), c.clock() + budget_s
+    quick = math.isfinite(budget_s)
     _ongoing(job, "program", 0, 3)
     program = yield from upload_steps(c.nonces, None)
     c.set_listing(program)
+    end = c.clock() + budget_s  # the download would have read the program anyway
     names, array_names = yield from _listed(c, model, program)
     _ongoing(job, "variables", 1, 3)
     values = yield from exact(c.nonces, names, model.columns, lambda: c.clock() >= end)

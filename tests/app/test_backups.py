@@ -88,7 +88,7 @@ def test_a_download_takes_at_most_a_moment_longer(stage: Stage, known: bool) -> 
     stage.studio.run.before("before a download", lambda old: None)
     stage.until(lambda: stage.studio.run.doing, 1.0)
     idle(stage)
-    assert rig.clock() - begun < 1.2
+    assert rig.clock() - begun < 1.4  # reading the program included, which the download then leaves out
     assert len(load(kept(folder(stage))[0].path).variables) == 20
 
 
