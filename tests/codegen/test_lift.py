@@ -203,7 +203,7 @@ def test_every_mode_of_every_instruction_comes_back_as_it_was() -> None:
     assert share < 19  # arrays without DA in front, other scales, labels of routines that stand alone
 
 
-@settings(max_examples=count(30, 1000))
+@settings(max_examples=count(12, 1000))
 @given(program=programs())
 def test_any_program_comes_back_as_it_was(program: Program) -> None:
     document = Document(program, RANDOM_SETUP)

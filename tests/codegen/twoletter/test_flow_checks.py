@@ -95,7 +95,7 @@ def _numbered(lines: list[str]) -> Iterator[str]:
             yield line
 
 
-@settings(max_examples=count(30, 3000))
+@settings(max_examples=count(15, 3000))
 @given(source=journeys())
 def test_what_is_warned_about_is_what_the_controller_refuses(source: str) -> None:
     """A move takes 50 ms and a statement 0.5 ms: without a wait the axis still moves at the next one.
@@ -137,7 +137,7 @@ def test_every_finding_in_the_manuals_is_justified() -> None:
     assert told == set(JUSTIFIED)
 
 
-@settings(max_examples=count(15, 1000))
+@settings(max_examples=count(8, 1000))
 @given(program=programs())
 def test_what_the_dialogs_write_has_no_errors(program: Program) -> None:
     """A random program may name labels and arrays it has not, or repeat names: those findings are right."""
