@@ -13,6 +13,7 @@ from tests.benchmarks.simulator import (
     moves_beside_busy_threads,
     served_idle,
     served_with_axes_and_threads,
+    setting_loops,
     tight_loop,
     waiting_loops,
 )
@@ -22,6 +23,7 @@ SINGLE: tuple[Callable[[], Figure], ...] = (
     four_axes_of_moves,
     arcs_with_gearing,
     waiting_loops,
+    setting_loops,
     moves_beside_busy_threads,
     tight_loop,
     served_idle,

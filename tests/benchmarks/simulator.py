@@ -54,6 +54,18 @@ WT 20
 N=N+1
 JP#A
 """
+SETTING = """#A
+PR 20000,10000;BGXY
+#L;V=_TPX;JP#L,V<19990
+AMXY
+PR -20000,-10000;BGXY
+#K;JS#S;JP#K,_BGX=1
+AMXY
+N=N+1
+JP#A
+#S;K=K+1
+EN
+"""
 BUSY = f"""V=0;XQ#V,1;XQ#C,2
 {MOVES}#V
 V=V+1
@@ -105,8 +117,14 @@ def waiting_loops() -> Figure:
     return Figure("60 s of loops that wait for moves", warm, "× real time", least=2000, note=f"cold {cold:.0f}")
 
 
+def setting_loops() -> Figure:
+    """The same where the loops set variables, count and call a subroutine."""
+    cold, warm = times_real_time("V=0;K=0\n" + SETTING, 60)
+    return Figure("60 s of loops that set variables", warm, "× real time", least=2000, note=f"cold {cold:.0f}")
+
+
 def moves_beside_busy_threads() -> Figure:
-    """Four axes move while two threads count and look, so that nothing can be left out."""
+    """Four axes move while two threads count and look."""
     cold, warm = times_real_time(BUSY, 20)
     return Figure("moves beside two busy threads", warm, "× real time", least=150, note=f"cold {cold:.0f}")
 
