@@ -145,6 +145,24 @@ def test_in_watch_nothing_is_restored() -> None:
         restored(other, backup)
 
 
+def test_a_question_in_the_middle_of_a_reading_gets_no_answer_from_it() -> None:
+    """A program asks (IN) while the controller is read to be compared: reading ends, the question stands."""
+    rig = Rig(model="ssc4", program='#A\nWT 500\nIN "LENGTH?",LEN\nEN')
+    rig.ready()
+    assert rig.result(rig.controller.ask("XQ #A")).accepted
+    job: Job[Backup] = Job()
+    steps = backup_steps(rig.controller, job, running=True)
+    future = rig.controller.run(steps, Priority.DOWNLOAD, "download")
+    rig.until(future.done, 30)
+    with pytest.raises(LinkError):
+        future.result()
+    rig.until(lambda: rig.controller.pending_prompt is not None, 5)
+    assert rig.running == [2]  # still waiting: nothing that was read became its answer
+    rig.result(rig.controller.answer("7.5"))
+    rig.until(lambda: not rig.running, 5)
+    assert rig.result(rig.controller.read("LEN")) == (7.5,)
+
+
 def test_differences_are_said_in_words() -> None:
     backup = backed_up(changed_controller())
     other = replace(
