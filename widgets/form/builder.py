@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import partial
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeyEvent
@@ -44,6 +45,9 @@ class ExpressionBuilder(QDialog):
     def __init__(self, offers: Offers, judge: Judge, text: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.offers, self.judge = offers, judge
+        self.watcher = object()  # under this name values are read for it
+        if offers.live is not None:
+            self.destroyed.connect(partial(offers.live.forget, self.watcher))
         self.live: Mapping[str, float | str] = {}
         self.assumed: dict[str, QLineEdit] = {}
         self.kept: dict[str, str] = {}  # what was assumed for names that are gone for the moment
@@ -194,9 +198,9 @@ class ExpressionBuilder(QDialog):
         self.live = {}
         if self.offers.live is not None:
             if wanted:
-                self.offers.live.watch(self, wanted, self._read)
+                self.offers.live.watch(self.watcher, wanted, self._read)
             else:
-                self.offers.live.forget(self)
+                self.offers.live.forget(self.watcher)
         self._show_value()
 
     def _read(self, values: Mapping[str, float | str]) -> None:
@@ -282,7 +286,7 @@ class ExpressionBuilder(QDialog):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Nothing is read for it any more."""
         if self.offers.live is not None:
-            self.offers.live.forget(self)
+            self.offers.live.forget(self.watcher)
         super().closeEvent(event)
 
 

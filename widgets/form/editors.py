@@ -88,6 +88,7 @@ class LineEditor(QLineEdit):
             return
         self.builder = ExpressionBuilder(self.offers, self.judge(), self.text(), self.window())
         self.builder.accepted_text.connect(self._take)
+        self.destroyed.connect(self.builder.close)
         self.builder.show()
 
     def _take(self, text: str) -> None:

@@ -12,6 +12,7 @@ from widgets.form.cell import focus_in
 from widgets.form.command_list import CommandList
 from widgets.form.curve_picture import CurvePicture
 from widgets.form.fields_form import FieldsForm
+from widgets.form.grid_editor import GridEditor
 from widgets.form.offers import Offers
 from widgets.form.path_picture import PathPicture
 from widgets.form.pictures import PICTURES
@@ -110,6 +111,9 @@ class InstructionForm(QWidget):
 
     def problem(self) -> str:
         """The first reason why the instruction is not right; empty when it is."""
+        table = self.fields.cells.get(("table", ""))
+        if table is not None and isinstance(table.editor, GridEditor) and table.editor.refusal:
+            return table.editor.refusal
         errors = compiled(self.instruction, self.offers.setup).errors
         if not errors:
             return ""
@@ -164,6 +168,9 @@ class InstructionForm(QWidget):
         if self.picture is not None:
             self.picture.deleteLater()
             self.picture = None
+        filled_in = self.fields.cells.get(("table", ""))
+        if filled_in is not None and isinstance(filled_in.editor, GridEditor):
+            filled_in.editor.refused.connect(self._refresh)
         make = PICTURES.get(type(instruction).__name__)
         if make is not None and self.grows:
             self.picture = make(self.offers)

@@ -42,6 +42,7 @@ class GridEditor(QWidget):
 
     changed = Signal(object)
     row_changed = Signal(int)
+    refused = Signal()  # `refusal` has changed: what stands in a cell and is no number
 
     def __init__(
         self, field: fields.Field, offers: Offers, *, narrow: bool = False, parent: QWidget | None = None
@@ -55,6 +56,7 @@ class GridEditor(QWidget):
         self.undone: list[Cells] = []
         self.redone: list[Cells] = []
         self.last_key: object = None
+        self.refusal = ""
         self.text = ""
         self.model = GridModel(self.sheet)
         self.view = GridView(self.model, field.label)
@@ -106,7 +108,8 @@ class GridEditor(QWidget):
             button.clicked.connect(lambda _=False, name=name: doing[name]())
         self.view.asked.connect(lambda what: doing[what]())
         self.view.cells.typed.connect(self._typed)
-        self.view.cells.told.connect(self.tell)
+        self.view.cells.told.connect(self._refuse)
+        self.view.clicked.connect(lambda _: self.tell(""))
         self.view.selectionModel().currentRowChanged.connect(self._moved)
         self.added_up.toggled.connect(self.model.show_added_up)
 
@@ -172,12 +175,22 @@ class GridEditor(QWidget):
         self.model.show_cells(cells, self.sheet)
         self.changed.emit(self.text)
 
+    def _refuse(self, sentence: str) -> None:
+        """A text in a cell that is no number: nothing is accepted before the person has seen that."""
+        self.tell(sentence)
+        self.refusal = sentence
+        self.refused.emit()
+
     def tell(self, sentence: str) -> None:
         """What was refused; the next change takes it away."""
+        if self.refusal:
+            self.refusal = ""
+            self.refused.emit()
         self.message.setText(f"! {sentence}" if sentence else "")
         self.message.setVisible(bool(sentence))
 
     def _moved(self, present: QModelIndex) -> None:
+        self.tell("")
         self.row_changed.emit(present.row())
 
     # ---- cells

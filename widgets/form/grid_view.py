@@ -52,6 +52,10 @@ class CellDelegate(QStyledItemDelegate):
             if leaves and isinstance(view, QTableView) and self._problem(view.currentIndex(), watched.text()):
                 self.told.emit(self._problem(view.currentIndex(), watched.text()))
                 return True
+            if leaves and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+                self.commitData.emit(watched)  # at once: the dialog is about to be left
+            if event.key() == Qt.Key.Key_Escape:
+                self.told.emit("")
         return super().eventFilter(watched, event)
 
     def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: Index) -> None:

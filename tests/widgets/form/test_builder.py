@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 import pytest
+import shiboken6
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -183,3 +184,18 @@ def test_leaves_are_what_the_controller_alone_knows(text: str, wanted: list[str]
     tree = parse_expression(text)
     assert not isinstance(tree, Bad)
     assert list(map(write, leaves(tree))) == wanted
+
+
+def test_a_dialog_that_goes_takes_its_builder_along(qtbot: QtBot) -> None:
+    """Nothing is read for it any more, and no reading reaches what is gone."""
+    live = Readings()
+    made, setup = program("ssc4")
+    dialog = InstructionDialog(SingleAxisMove(axis="X"), offers_of(Document(made, setup), live), new=True)
+    dialog.show()
+    line = dialog.form.fields.cells["distance", ""].editor
+    line.build()
+    line.builder.line.setText("LEN")
+    assert len(live.watched) == 1
+    dialog.reject()
+    shiboken6.delete(dialog)
+    assert live.watched == {}

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from codegen.instructions import ContourMode, ElectronicCam, Instruction
 from codegen.laws import Law
-from tests.widgets.form.clipping import machine_offers, settle
+from tests.widgets.form.clipping import machine_offers, open_dialog, settle
 from widgets.form.fields_form import FieldsForm
 from widgets.form.grid_editor import GridEditor
 
@@ -229,3 +229,47 @@ def test_another_step_is_shown_and_not_changed(show: Callable[..., tuple[FieldsF
     form.show_item(ElectronicCam(cycle="4", table="7\n1,234;5", slaves="W"))  # as somebody typed it into a file
     assert edited == [] and editor.value() == "7\n1,234;5"
     QApplication.processEvents()
+
+
+def test_what_is_being_typed_is_not_lost_when_the_dialog_is_left_by_its_key(qtbot: QtBot) -> None:
+    dialog = open_dialog(ElectronicCam, "ssc4", "example")
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
+    qtbot.addWidget(dialog)
+    added: list[Instruction] = []
+    dialog.added.connect(lambda instruction, section, stay: added.append(instruction))
+    editor = dialog.form.fields.cells["table", ""].editor
+    editor.view.go_to(1, 0)
+    editor.view.setFocus()
+    editor.view.edit_current()
+    line = editor.view.findChild(QLineEdit)
+    line.selectAll()
+    QTest.keyClicks(line, "0.5")
+    QTest.keyClick(line, Qt.Key.Key_Return, CONTROL)
+    settle()
+    if not added:  # the first one closed the cell
+        QTest.keyClick(dialog, Qt.Key.Key_Return, CONTROL)
+    (cam,) = added
+    assert cam.table.split("\n")[1] == "0.5"  # type: ignore[attr-defined]
+
+
+def test_a_cell_that_holds_no_number_is_not_passed_over_by_a_click_on_add(qtbot: QtBot) -> None:
+    dialog = open_dialog(ElectronicCam, "ssc4", "example")
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
+    qtbot.addWidget(dialog)
+    added: list[object] = []
+    dialog.added.connect(lambda *what: added.append(what))
+    editor = dialog.form.fields.cells["table", ""].editor
+    editor.view.go_to(1, 0)
+    editor.view.setFocus()
+    editor.view.edit_current()
+    line = editor.view.findChild(QLineEdit)
+    line.selectAll()
+    QTest.keyClicks(line, "0,5")
+    assert not dialog.buttons["Add"].isEnabled() and "write 0.5" in dialog.buttons["Add"].toolTip()
+    dialog.note.setFocus()  # the cell closes; its text was not taken
+    settle()
+    assert "keeps 0.25" in editor.message.text()
+    QTest.mouseClick(dialog.buttons["Add"], Qt.MouseButton.LeftButton)
+    assert added == [] and dialog.isVisible()
+    editor.view.go_to(2, 0)  # seen: another cell is chosen
+    assert dialog.buttons["Add"].isEnabled()
