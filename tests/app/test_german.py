@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 WALKED = (
     "fields of dialogs",
     "lines of the set-up",
@@ -17,6 +19,7 @@ WALKED = (
 )
 
 
+@pytest.mark.paced
 def test_no_number_is_misread_anywhere(tmp_path: Path) -> None:
     german = {
         "LANG": "de_DE.UTF-8",

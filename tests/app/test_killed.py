@@ -18,6 +18,7 @@ ALLOWED_S = 2.0
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="lives are forks")
 @pytest.mark.timeout(count(240, 3600))
+@pytest.mark.paced
 def test_killed_at_random_moments(tmp_path: Path) -> None:
     """The everyday run keeps copies after 30 ms instead of a second, so that its lives are short."""
     kills, autosave, beside = count(50, 1000), AUTOSAVE_MS if is_long() else 30, count(1, 4)

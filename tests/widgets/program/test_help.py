@@ -59,4 +59,4 @@ def test_a_selected_step_and_its_form_know_their_page(window: Window) -> None:
     assert topic_of(window.view.tree) == "Wait"
     dialog = window.view.dialogs.modify(step_id)
     assert isinstance(dialog.form, InstructionForm)
-    assert topic_of(dialog.form.fields.cells["time", ""].editor) == "Wait"
+    assert topic_of(dialog.form.fields.cells["time", ""].editor) == "Wait#Time"  # the field on the page
