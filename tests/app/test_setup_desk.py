@@ -174,7 +174,7 @@ def name_file(stage: Stage, path: Path) -> None:
     stage.go()
 
 
-def test_saved_under_a_name_opened_again_and_named_in_the_title(stage: Stage, tmp_path: Path) -> None:
+def test_saved_named_in_the_title_and_never_over_what_somebody_else_saved(stage: Stage, tmp_path: Path) -> None:
     window = opened(stage)
     assert "not saved in a file" in window.windowTitle()
     fill(window.controller.name, "Press 7")
@@ -186,6 +186,14 @@ def test_saved_under_a_name_opened_again_and_named_in_the_title(stage: Stage, tm
     assert window.windowTitle() == "Setup – press.tls*"
     click(stage, window.file_buttons["Save"][0])
     assert load_setup(tmp_path / "press.tls").name == "Press 8" and window.windowTitle() == "Setup – press.tls"
+    path = tmp_path / "press.tls"
+    save_setup(path, Setup(name="Somebody else"))
+    fill(window.controller.name, "Mine")
+    click(stage, window.file_buttons["Save"][0])
+    question = asked(stage, "Somebody else changed this file")
+    assert load_setup(path).name == "Somebody else"
+    click(stage, question.buttons["Overwrite it"])
+    assert load_setup(path).name == "Mine"
 
 
 def test_a_file_is_opened_into_the_window_and_reaches_the_program_with_done(stage: Stage, tmp_path: Path) -> None:
@@ -203,7 +211,7 @@ def test_a_file_is_opened_into_the_window_and_reaches_the_program_with_done(stag
     assert load(path).setup == setup  # the same data is in the program's own file
 
 
-def test_a_file_that_is_none_is_one_sentence_and_changes_nothing(stage: Stage, tmp_path: Path) -> None:
+def test_a_file_that_is_none_changes_nothing_and_new_asks_before_it_throws_away(stage: Stage, tmp_path: Path) -> None:
     window = opened(stage)
     before = window.setup
     for text in (b"{", b'{"format": "twoletter setup", "version": 99}', b"\x00\xff"):
@@ -212,24 +220,6 @@ def test_a_file_that_is_none_is_one_sentence_and_changes_nothing(stage: Stage, t
         question = asked(stage, "The setup can not be opened")
         assert "\n" not in question.words and question.words.endswith(".") and window.setup == before
         click(stage, question.findChildren(QAbstractButton)[0])
-
-
-def test_a_file_that_somebody_else_changed_is_not_overwritten_in_silence(stage: Stage, tmp_path: Path) -> None:
-    path = tmp_path / "shared.tls"
-    save_setup(path, Setup(name="First"))
-    window = opened(stage)
-    stage.studio.setup.file.open_path(path)
-    save_setup(path, Setup(name="Somebody else"))
-    fill(window.controller.name, "Mine")
-    click(stage, window.file_buttons["Save"][0])
-    question = asked(stage, "Somebody else changed this file")
-    assert load_setup(path).name == "Somebody else"
-    click(stage, question.buttons["Overwrite it"])
-    assert load_setup(path).name == "Mine"
-
-
-def test_new_asks_before_it_throws_away_what_is_kept_nowhere(stage: Stage) -> None:
-    window = opened(stage)
     fill(window.controller.name, "Half done")
     click(stage, window.file_buttons["New"][0])
     question = asked(stage, "Leave this setup?")
@@ -277,7 +267,7 @@ def test_what_was_chosen_is_sent_after_its_risks_were_told(stage: Stage) -> None
     assert "BN" not in " ".join(rig.lines).replace("_BN", "")
 
 
-def test_in_watch_what_was_chosen_is_kept_and_not_sent(stage: Stage) -> None:
+def test_in_watch_what_was_chosen_is_kept_not_sent_and_a_lost_connection_forgets_what_was_read(stage: Stage) -> None:
     rig = machine(stage, control=False)
     window = compared(stage)
     click(stage, window.compare.send_all)
@@ -286,6 +276,10 @@ def test_in_watch_what_was_chosen_is_kept_and_not_sent(stage: Stage) -> None:
     assert "Watching only" in question.words and set(question.buttons) == {"Keep it without sending"}
     click(stage, question.buttons["Keep it without sending"])
     assert register(rig, "OE") == 0 and not window.isVisible()
+    again = compared(stage)
+    stage.studio.connection.go_offline()
+    stage.go()
+    assert not again.comparing.readings and not again.read.isEnabled()  # another one, or none
 
 
 def test_a_motor_type_goes_with_the_motor_off_and_nothing_while_an_axis_moves(stage: Stage) -> None:
@@ -328,14 +322,6 @@ def test_another_model_is_offered_as_the_setups(stage: Stage) -> None:
     assert "SSC, three axes" in question.words and not window.comparing.readings
     click(stage, question.buttons["Make it a setup for SSC, three axes"])
     assert window.setup.model == "ssc3" and window.comparing.readings
-
-
-def test_a_lost_connection_forgets_what_was_read(stage: Stage) -> None:
-    machine(stage)
-    window = compared(stage)
-    stage.studio.connection.go_offline()
-    stage.go()
-    assert not window.comparing.readings and not window.read.isEnabled()
 
 
 def test_write_to_eeprom_says_what_the_next_power_up_does_and_burns_then(stage: Stage) -> None:

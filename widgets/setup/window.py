@@ -165,6 +165,11 @@ class SetupWindow(QDialog):
     def _edited(self, setup: Setup) -> None:
         self.show_setup(setup)
 
+    def _turn(self, row: int) -> None:
+        """Another page comes to the front."""
+        self._show()
+        self.stack.setCurrentIndex(row)
+
     def _choose(self, key: Key, choice: Choice) -> None:
         self.comparing, self.setup = self.comparing.choose(self.setup, key, choice)
         self._show()
@@ -190,9 +195,9 @@ class SetupWindow(QDialog):
 
     def _show(self) -> None:
         shown = Shown(self.setup, self.comparing.readings, self._online.serial)
-        for page in self.pages:
-            page.show_setup(shown)
-        if self.comparing.readings:
+        for number, page in enumerate(self.pages):
+            page.show_setup(shown, number == self.list.currentRow())
+        if self.comparing.readings and self.pages[self.list.currentRow()] is self.compare:
             self.compare.show_rows(self.comparing.rows(self.setup), self.comparing.choices, self._who)
         self._mark_pages()
         found = self.problems()
@@ -215,7 +220,7 @@ class SetupWindow(QDialog):
             page.edited.connect(self._edited)
         self.compare.chosen.connect(self._choose)
         self.compare.all_chosen.connect(self._choose_all)
-        self.list.currentRowChanged.connect(self.stack.setCurrentIndex)
+        self.list.currentRowChanged.connect(self._turn)
         for button, signal in self.file_buttons.values():
             button.clicked.connect(signal)
         self.read.clicked.connect(self.read_wanted)

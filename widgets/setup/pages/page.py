@@ -47,12 +47,13 @@ class Page(QWidget):
         whole.setContentsMargins(0, 0, 0, 0)
         whole.addWidget(scroll)
 
-    def show_setup(self, shown: Shown) -> None:
-        """Shows a setup; what is being typed stays where the cursor is."""
+    def show_setup(self, shown: Shown, in_front: bool) -> None:
+        """A setup to show; a page behind the others is only told, and refreshed when it comes to the front."""
         self.shown = shown
-        self.refresh(shown)
-        if self.isVisible():
-            settle(self.inside)
+        if in_front:
+            self.refresh(shown)
+            if self.isVisible():
+                settle(self.inside)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Words that take several lines know their height only once the page has its width."""
