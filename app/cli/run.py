@@ -127,7 +127,8 @@ def loaded_simulation(
 ) -> Simulation:
     """A simulator with the program in it, started."""
     simulation = Simulation(loaded.model, plants=plants, profile=read_profile(profile))
-    apply_limits(simulation, loaded.setup)
+    if not loaded.bare:
+        apply_limits(simulation, loaded.setup)
     try:
         simulation.load_program(loaded.text)
     except DownloadRefused as refused:

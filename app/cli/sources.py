@@ -34,6 +34,8 @@ class Loaded:
     setup: Setup
     document: Document | None = None
     listing: Listing | None = None
+    bare: bool = False
+    """Source without a setup: the controller keeps its factory limits (OE 0)."""
 
     @property
     def stimulus(self) -> str:
@@ -210,7 +212,7 @@ def load_any(path: Path, controller: str | None = None, setup_path: str | None =
     text = read_text(path)
     name = controller or (setup.model if setup else DEFAULT_MODEL)
     chosen = of_two_letters(name, path)
-    return Loaded(path, text, chosen, dataclasses.replace(setup or Setup(), model=name))
+    return Loaded(path, text, chosen, dataclasses.replace(setup or Setup(), model=name), bare=setup is None)
 
 
 def known_models() -> str:

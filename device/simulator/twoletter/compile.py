@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from codegen.twoletter.commands import FREE
 from codegen.twoletter.evaluate import compile_expression
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from device.simulator.twoletter.unit import Unit
 
 Op: TypeAlias = Callable[[Strand], int]
+ASSIGNED: Final = re.compile(r"[A-Za-z0-9 \t]*[=\[]").match
 
 __all__ = ["Code", "Op", "compile_line", "compile_program"]
 
@@ -98,7 +100,7 @@ def compile_statement(statement: Statement, following: int, unit: Unit, code: Co
     if unit.worked_out or by_axis:
         statement = rewritten(statement, unit.worked_out, axis_assignments=by_axis)
     if isinstance(statement, Broken | Foreign):
-        return _refuse(statement.code)
+        return _refuse(1 if _is_of_another_model(statement.text, unit) else statement.code)
     if isinstance(statement, Comment) and statement.mark != "NO":
         return _refuse(1)  # the host's comments mean nothing to a controller
     if isinstance(statement, Command):
@@ -117,6 +119,12 @@ def compile_statement(statement: Statement, following: int, unit: Unit, code: Co
 def _is_command(target: object, unit: Unit) -> bool:
     """VS= where VS is a command of this controller; it is a variable where there is none (dmc-1412-1414.txt l.3245)."""
     return isinstance(target, Variable) and target.name in FREE and unit.rows[target.name].known_to(unit.model)
+
+
+def _is_of_another_model(text: str, unit: Unit) -> bool:
+    """A command that this controller does not know is never read far enough for its arguments to be wrong."""
+    row = unit.rows.get(text[:2])
+    return row is not None and not row.known_to(unit.model) and not ASSIGNED(text)
 
 
 def _refuse(code: int) -> Op:

@@ -58,6 +58,18 @@ def ran(capsys: Said, *arguments: str, code: int = 0) -> dict[str, Any]:
     return found
 
 
+def test_source_without_a_setup_runs_on_a_factory_controller(write: Write, capsys: Said) -> None:
+    """The factory value of OE is 0 (facts of the command list): AB 1 leaves the motor on."""
+    found = ran(capsys, write("a.dmc", "JG 10000\nBGX\nWT 100\nAB 1\nV=_OEX\nEN\n"))
+    assert found["variables"] == {"V": 0} and found["axes"]["X"]["motor_on"]
+
+
+@pytest.mark.parametrize("line", ["LM 1", "VP 1", "CR 1", "GA 1", "CS 1", "LI", "VS 1*"])
+def test_a_command_of_other_models_is_not_read_further(line: str, write: Write, capsys: Said) -> None:
+    found = ran(capsys, write("a.dmc", f"{line}\nEN\n"), "--controller", "dmc1412", code=1)
+    assert found["errors"][0]["code"] == 1
+
+
 def test_json_has_exactly_the_documented_keys(write: Write, capsys: Said) -> None:
     found = ran(capsys, write("a.dmc", 'MG "HI"\nPR 10000\nBGX\nAMX\nV=2.5\nS="CAT"\nDM A[2]\nA[1]=7\nSB 3\nEN\n'))
     assert set(found) == KEYS
