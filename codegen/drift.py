@@ -220,8 +220,8 @@ def closes_a_loop(jump: Instruction) -> bool:
 def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fraction) -> str | None:
     if sums.off:
         found = tuple([(letter, round(off, 12)) for letter, off in sums.errors(start, end).items()])
-        if found and (parts := _far(found, setup, float(count))):
-            return f"{words} drifts: {parts} in {plain(count)} turns"
+        if found and (text := _far(found, setup, float(count))):
+            return words + text
     if sums.cuts and sums.reverses(start, end):
         return f"{words} may drift: expressions are cut down to whole counts, going back as well as forth"
     return None
@@ -229,13 +229,13 @@ def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fr
 
 @lru_cache(maxsize=4096)
 def _far(offs: tuple[tuple[str, float], ...], setup: Setup, count: float) -> str:
-    """How far the axes are off after that many turns; nothing of those that are off by less than a count."""
+    """` drifts: X by 1.6 mm in 1000 turns`; nothing where every axis is off by less than a count."""
     parts = []
     for letter, off in sorted(offs, key=lambda each: AXES.index(each[0])):
         axis, far = setup.axis(letter), Fraction(off).limit_denominator(10**12) * Fraction(count)
         if abs(far) * axis.scale >= 1:
             parts.append(f"{letter} by {shown(far, 4)} {axis.symbol}")
-    return ", ".join(parts)
+    return f" drifts: {', '.join(parts)} in {plain(Fraction(count))} turns" if parts else ""
 
 
 def cut(move: Instruction) -> str | None:

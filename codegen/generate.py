@@ -17,7 +17,7 @@ from codegen.document import Document
 from codegen.drift import Sums, closes_a_loop, drift, jump_drift
 from codegen.fields import SYSTEM_LABELS, Choice, fields_of
 from codegen.handover import first_line
-from codegen.instructions import End, LoopRate, Subroutine, TwoLetterCode
+from codegen.instructions import End, Jump, LoopRate, Subroutine, TwoLetterCode
 from codegen.instructions.flow import EndOf, Routine
 from codegen.program import Program, Section, Step, is_closed, program_label
 from codegen.setup import Finding, never_set_up, setup_problems
@@ -167,7 +167,7 @@ class _Pass:
             if not step.enabled:
                 continue
             self.step(step, section)
-            if closes_a_loop(step.instruction):
+            if type(step.instruction) is Jump and closes_a_loop(step.instruction):
                 sums = sums or Sums(steps, self.setup)
                 if text := jump_drift(sums, number, self.setup):
                     self.problems.append(Finding("", text, "warning", "", step.id))
