@@ -34,6 +34,7 @@ def long_program(session: object) -> None:
         session.insert([kinds[number % 3]])  # type: ignore[attr-defined]
 
 
+@pytest.mark.alone
 def test_no_tick_takes_long_whatever_the_controller_does(stage: Stage) -> None:
     """Time of the window's own thread on the processor, tick by tick; the machine runs in virtual time."""
     worst: dict[str, float] = {}
