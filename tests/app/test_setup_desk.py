@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QFileDialog, QLineEdit
@@ -150,6 +151,7 @@ def test_the_setup_finished_last_is_the_default_of_a_new_program(stage: Stage, t
     again.studio.window.deleteLater()
 
 
+@pytest.mark.long
 def test_a_damaged_default_is_no_obstacle(tmp_path: Path, qtbot: object) -> None:
     (tmp_path / DEFAULT).write_text("{", encoding="utf-8")
     again = make_studio(tmp_path, example="")
@@ -196,6 +198,7 @@ def test_saved_named_in_the_title_and_never_over_what_somebody_else_saved(stage:
     assert load_setup(path).name == "Mine"
 
 
+@pytest.mark.long
 def test_a_file_is_opened_into_the_window_and_reaches_the_program_with_done(stage: Stage, tmp_path: Path) -> None:
     setup = Setup(name="Table", model="ssc2").with_axis("Y", Axis(unit=Unit.MM, counts_per_unit="4000/3", kp="9"))
     save_setup(tmp_path / "table.tls", setup)
@@ -300,6 +303,7 @@ def test_a_motor_type_goes_with_the_motor_off_and_nothing_while_an_axis_moves(st
     stage.until(lambda: rig.moving == [])
 
 
+@pytest.mark.long
 def test_another_serial_number_is_asked_about_before_anything_is_sent(stage: Stage) -> None:
     rig = machine(stage)
     window = compared(stage)
@@ -313,6 +317,7 @@ def test_another_serial_number_is_asked_about_before_anything_is_sent(stage: Sta
     assert "4712" in question.words and register(rig, "OE") == 0
 
 
+@pytest.mark.long
 def test_another_model_is_offered_as_the_setups(stage: Stage) -> None:
     stage.connect("machine", "ssc3").controller.take_control()
     stage.go()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
@@ -66,6 +67,7 @@ def test_on_a_machine_they_are_shown_and_sent_when_told_to_and_then_asked_no_mor
     assert stage.studio.desk.question is None
 
 
+@pytest.mark.long
 def test_the_controllers_own_limits_can_stay(stage: Stage) -> None:
     rig = limited(stage, "machine")
     execute(stage)
