@@ -67,7 +67,7 @@ def test_a_program_without_a_file_begins_unfolded(stage: Stage, tmp_path: Path) 
 
 
 def test_a_lost_line_is_said_instead_of_what_was_said_before(stage: Stage) -> None:
-    rig = stage.connect("machine", stage.studio.model())
+    rig = stage.connect("simulator", stage.studio.model())
     stage.download()
     stage.studio.run.execute()
     status = stage.studio.window.status
