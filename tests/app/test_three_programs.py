@@ -25,7 +25,7 @@ from tests.long import is_long
 from tests.stage import Stage
 
 WAYS = [Mouse, Keys]
-pytestmark = pytest.mark.alone
+pytestmark = pytest.mark.paced
 MS = 1000  # ticks of a sample at TM 1000
 
 
