@@ -108,6 +108,7 @@ ROWS: tuple[Row, ...] = (
     Row("setup", "Setup…", "Machine", "Controller model, axes, units and names", "", "setup", "main", "Setup"),
     Row("program", "Program", "Machine", "The program window", "Alt+1", "program", "main", "Program"),
     Row("terminal", "Terminal", "Machine", "Type commands, see replies", "Alt+2", "terminal", "main", "Terminal"),
+    Row("editor", "Code editor…", "Machine", "Two-letter code written by hand, sent and read", "Ctrl+Shift+E", "code"),
     Row("display", "Display", "Machine", "Positions, inputs, outputs and switches", "Alt+3", "display", "main",
         "Display"),
     Row("jog", "Jog", "Machine", "Move axes by hand", "Alt+6", "jog", "main", "Jog"),

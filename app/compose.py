@@ -17,6 +17,7 @@ from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
 from app.doctor_desk import DoctorDesk
+from app.editor import Editor
 from app.event_list import Happened
 from app.files import Files
 from app.folding import Folding
@@ -102,6 +103,10 @@ class Studio(QObject):
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.variables = Variables(self.connection, self.tick, self.values, self.desk.ask, self.files.folder, self)
+        self.editor = Editor(
+            self.connection, self.session, self.run, self.desk.ask, self.importing.take, self.files.folder, data,
+            self.window,
+        )  # fmt: skip
         self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
@@ -166,6 +171,7 @@ class Studio(QObject):
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
             "events": partial(desk.bring, "Events"),
+            "editor": self.editor.show,
             "jog": partial(desk.bring, "Jog"), "variables": partial(desk.bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial, "doctor": self.doctor.show,
@@ -211,6 +217,7 @@ class Studio(QObject):
             self.follow.look,
             self.setup.look,
             lambda: self.proof.look(self.follow.known),
+            lambda: self.editor.look(self.follow.known),
             self.which.look,
             self.met.look,
             self.search.look,

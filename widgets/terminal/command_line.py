@@ -7,15 +7,14 @@ from html import escape
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent
-from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from codegen.docs import command_page
 from codegen.models import MODELS, Model
 from codegen.twoletter.complete import Candidate, Names, ParameterHelp, complete, parameter_help
-from widgets.parts.look import look
+from widgets.parts.offer import Offer, begun
 
 MOST_EARLIER = 500  # lines
-ROWS, WIDTH = 8, 420  # of the list of what fits; px
 
 
 class CommandLine(QLineEdit):
@@ -30,14 +29,8 @@ class CommandLine(QLineEdit):
         self.names = Names()
         self._earlier: list[str] = []
         self._at = 0
-        self._found: list[Candidate] = []
-        self.offer = QListWidget(self)
-        self.offer.setWindowFlags(Qt.WindowType.ToolTip | Qt.WindowType.FramelessWindowHint)
-        self.offer.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.offer.setAttribute(Qt.WidgetAttribute.WA_ShowWithoutActivating)
-        self.offer.setAccessibleName("What fits here")
-        self.offer.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.offer.itemClicked.connect(lambda item: self._take(self.offer.row(item)))
+        self.offer = Offer(self)
+        self.offer.taken.connect(self._take)
         self.textEdited.connect(lambda _: self._look())
         self.cursorPositionChanged.connect(lambda *_: self._tell())
 
@@ -52,7 +45,7 @@ class CommandLine(QLineEdit):
     @property
     def offered(self) -> list[str]:
         """What the list shows; empty when there is none."""
-        return [each.text for each in self._found] if self.offer.isVisible() else []
+        return self.offer.texts
 
     def remember(self, texts: Iterable[str]) -> None:
         """Lines of earlier sessions."""
@@ -76,21 +69,18 @@ class CommandLine(QLineEdit):
         key, listed = Qt.Key(event.key()), self.offer.isVisible()
         if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.send()
-        elif key == Qt.Key.Key_Tab and listed and not event.modifiers():
-            self._take(max(self.offer.currentRow(), 0))
+        elif key == Qt.Key.Key_Tab and listed and not event.modifiers() and self.offer.chosen is not None:
+            self._take(self.offer.chosen)
         elif key == Qt.Key.Key_Escape and listed:
             self.offer.hide()
         elif key == Qt.Key.Key_Space and event.modifiers() == Qt.KeyboardModifier.ControlModifier:
             self._look(always=True)
         elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
             step = -1 if key == Qt.Key.Key_Up else 1
-            self._walk(step) if listed else self._recall(step)
+            self.offer.walk(step) if listed else self._recall(step)
         else:
             return False
         return True
-
-    def _walk(self, step: int) -> None:
-        self.offer.setCurrentRow((self.offer.currentRow() + step) % len(self._found))
 
     def _recall(self, step: int) -> None:
         if self._earlier:
@@ -113,28 +103,12 @@ class CommandLine(QLineEdit):
     def _look(self, always: bool = False) -> None:
         """While a word is typed; on Ctrl+Space also where none has begun."""
         column = self.cursorPosition()
-        begun = column > 0 and (self.text()[column - 1].isalnum() or self.text()[column - 1] in "_@#")
-        self._found = complete(self.text(), column, self.model, self.names) if begun or always else []
-        if not self._found:
-            self.offer.hide()
-            return
-        self.offer.clear()
-        for each in self._found:
-            item = QListWidgetItem(f"{each.text}    {each.title}")
-            item.setToolTip(each.help)
-            self.offer.addItem(item)
-        self.offer.setFont(look().code_font())
-        height = self.offer.sizeHintForRow(0) * min(len(self._found), ROWS) + 2 * self.offer.frameWidth()
-        self.offer.resize(WIDTH, height)
+        wanted = always or begun(self.text(), column)
+        found = complete(self.text(), column, self.model, self.names) if wanted else []
         corner = self.mapToGlobal(QPoint(0, 0))
-        below = corner.y() + self.height()
-        room = self.screen().availableGeometry().bottom() - below
-        self.offer.move(corner.x(), below if room > height else corner.y() - height)
-        self.offer.setCurrentRow(0)
-        self.offer.show()
+        self.offer.show_at(found, corner, corner + QPoint(0, self.height()))
 
-    def _take(self, row: int) -> None:
-        each = self._found[row]
+    def _take(self, each: Candidate) -> None:
         text = self.text()
         self.setText(text[: each.start] + each.text + text[each.end :])
         self.setCursorPosition(each.start + len(each.text))

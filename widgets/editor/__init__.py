@@ -1,0 +1,1 @@
+"""Two-letter code written by hand."""
