@@ -83,7 +83,10 @@ class Simulation:
             self.interpreter.advance(limit, until_idle=True)
             if self.unit.records.unhandled > known:
                 return "error"
-            if not self.unit.running():
+            back = self.unit.state.reset_at
+            if back >= 0:  # what runs after a reset is known when the controller is back
+                self.interpreter.advance(min(limit, back + self.unit.clock.period))
+            elif not self.unit.running():
                 if not self.unit.moving() and self.unit.state.command_at < 0:
                     return "end"
                 self._let_move(limit)

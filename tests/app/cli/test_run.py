@@ -64,6 +64,14 @@ def test_source_without_a_setup_runs_on_a_factory_controller(write: Write, capsy
     assert found["variables"] == {"V": 0} and found["axes"]["X"]["motor_on"]
 
 
+def test_a_run_goes_on_until_the_controller_is_back_after_a_reset(write: Write, capsys: Said) -> None:
+    """What was not burned is gone then: variables and the program."""
+    path, stimulus = write("a.dmc", "V=1\nWT 5000\nEN\n"), "ms,signal,value\n200,reset,0\n220,reset,1\n"
+    found = ran(capsys, path, "--stimulus", write("s.csv", stimulus))
+    assert found["stopped"] == "end" and 0.22 < found["virtual_seconds"] < 5
+    assert found["variables"] == {} and not found["error_output"] and found["axes"]["X"]["motor_on"]
+
+
 @pytest.mark.parametrize("line", ["LM 1", "VP 1", "CR 1", "GA 1", "CS 1", "LI", "VS 1*"])
 def test_a_command_of_other_models_is_not_read_further(line: str, write: Write, capsys: Said) -> None:
     found = ran(capsys, write("a.dmc", f"{line}\nEN\n"), "--controller", "dmc1412", code=1)
