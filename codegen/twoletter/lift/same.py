@@ -44,6 +44,7 @@ from codegen.twoletter.rows import Takes
 T = TypeVar("T", bound=Expression)
 AXES = "XYZW"
 ALL_AXES = ("BG", "AM", "MC", "AS", "SH", "MO", "HM", "FE", "FI", "AL", "CM")  # no letter: the only axis
+ENDS = ("EN", "RE", "RI")  # an empty place is 0: EN,1 is EN 0,1 (dmc-1412-1414.txt l.3579, l.5371)
 ZERO = ("RE", "RI", "ZS")  # no number: 0 (the table's default)
 
 
@@ -106,7 +107,7 @@ def _plain(statement: Statement, model: Model) -> Iterator[Statement]:
 
 
 def _written_out(command: Command, model: Model) -> Command:
-    """`BG` of a one-axis controller is `BG X`, `RE` is `RE 0`, `II 1` is `II 1,1`."""
+    """`BG` of a one-axis controller is `BG X`, `RE` is `RE 0`, `EN,1` is `EN 0,1`, `II 1` is `II 1,1`."""
     arguments = command.arguments
     if not arguments and len(model.axes) == 1 and command.name in ALL_AXES:
         return dataclasses.replace(command, arguments=(Axes(model.axes),))
@@ -114,6 +115,9 @@ def _written_out(command: Command, model: Model) -> Command:
         return dataclasses.replace(command, arguments=(Axes(model.axes),))
     if not arguments and command.name in ZERO:
         return dataclasses.replace(command, arguments=(Number(0, "0"),))
+    if command.name in ENDS:
+        written = (Number(0, "0") if isinstance(each, Empty) else each for each in arguments)
+        return dataclasses.replace(command, arguments=tuple(written))
     if command.name == "II" and len(arguments) == 1 and isinstance(arguments[0], Number) and arguments[0].scaled:
         return dataclasses.replace(command, arguments=(arguments[0], arguments[0]))
     return command

@@ -239,9 +239,10 @@ def end(of: EndOf) -> Maker:
     """EN, RE or RI; EN with numbers ends the communication interrupt."""
 
     def make(statement: Command, _: Setup) -> Instruction | None:
-        numbers = whole_numbers(statement.arguments)
-        if numbers is None or any(number not in (0, 1) for number in numbers):
+        found = whole_numbers(statement.arguments)
+        if found is None or any(number not in (0, 1, None) for number in found):
             return None
+        numbers = [number or 0 for number in found]
         if of is EndOf.SUBROUTINE and len(numbers) == 2:
             return End(of=EndOf.COMMUNICATION, keep=bool(numbers[0]), restore=bool(numbers[1]))
         return End(of=of, keep=bool(numbers and numbers[0]))

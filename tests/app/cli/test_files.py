@@ -217,6 +217,19 @@ def test_import_loses_nothing(text: str, write: Write, tmp_path: Path, capsys: S
     assert "cut.tlp" in capsys.readouterr().out
 
 
+def test_import_takes_en_1_for_the_end_of_the_communication_interrupt(
+    write: Write, tmp_path: Path, capsys: Said
+) -> None:
+    """EN,1 and EN0,1 both re-enable it (dmc-1412-1414.txt l.3610, l.5371)."""
+    out = tmp_path / "cut.tlp"
+    text = "#CUT\nCI ,2\n#L\nJP #L\nEN\n#COMINT\nWT 5\nEN,1\n"
+    assert main(["import", write("cut.dmc", text), "-o", str(out), "--controller", "dmc1412"]) == 0
+    document = load(out)
+    assert [step.instruction.label for step in document.program.routines] == ["COMINT"]  # type: ignore[attr-defined]
+    assert statements(generate(document).text)[-3:] == ["#COMINT", "WT 5", "EN 0,1"]
+    capsys.readouterr()
+
+
 def test_a_lone_carriage_return_ends_a_line(write: Write, capsys: Said) -> None:
     path = write("cr.dmc", "#A\rPR 100\rPR 99999999999\rEN\r")
     assert main(["check", path]) == 1
