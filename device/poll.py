@@ -69,6 +69,7 @@ class Poller:
         self._refused: Counter[str] = Counter()
         self._asked: dict[str, float] = {}  # when each value was asked for
         self._always_due = 0.0
+        self._answered = False
         self._cycles: deque[float] = deque(maxlen=8)
 
     def watch(self, owner: str, keys: Iterable[str]) -> None:
@@ -90,7 +91,7 @@ class Poller:
     def run(self) -> PollSteps:
         """The task: cycles of requests, each followed by the rest it owes the line."""
         while True:
-            start = self._clock()
+            start, self._answered = self._clock(), False
             lines = [] if self._suspended() else self._due(start)
             if not lines:
                 yield from self._rest(0.05)
@@ -101,7 +102,8 @@ class Poller:
                 if self._suspended():
                     break
                 yield from self._one(request)
-            self._measure(start)
+            if self._answered:  # waiting for a dead controller is no pace: what it said last gets old meanwhile
+                self._measure(start)
 
     def _due(self, now: float) -> list[Request]:
         """This round: the quick values, filled up with others in turn, and one line of others more.
@@ -145,6 +147,7 @@ class Poller:
             return
         now = self._clock()
         if answer.kind is Kind.VALUES:
+            self._answered = True
             values = {key: value for (key, _, _), value in zip(request, answer.values, strict=True)}
             self.ring.write(values, now, keep=self.wanted() + ALWAYS)
             self._read(values, start)

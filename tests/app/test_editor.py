@@ -26,7 +26,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     yield made
     if made.studio.editor.window is not None:
         made.studio.editor.window.text.document().setModified(False)
-    made.studio.close()
+    made.clear_away()
 
 
 def window(stage: Stage) -> EditorWindow:

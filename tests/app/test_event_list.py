@@ -88,7 +88,7 @@ def test_events_survive_the_studio(stage: Stage, tmp_path: Path) -> None:
     stage.until(lambda: "STOP was pressed" in words(stage))
     other = make_studio(tmp_path)
     assert any("STOP was pressed" in event.text for event in other.studio.happened.events.all())
-    other.studio.close()
+    other.clear_away()
 
 
 def test_the_service_bundle_holds_everything(stage: Stage, tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Stage:
     made.studio.desk.bring("Operator terminal")
     made.go()
     yield made
-    made.studio.close()
+    made.clear_away()
 
 
 def plug(stage: Stage) -> None:

@@ -16,7 +16,18 @@ from tests.stage import Stage
 from widgets.options.page import OptionsPage
 
 # set where they belong: in the serial setup, by the search, by moving panels
-ELSEWHERE = {"port", "baud", "bits", "stop_bits", "parity", "echo", "handshake", "layout", "window"}
+ELSEWHERE = {
+    "port",
+    "baud",
+    "bits",
+    "stop_bits",
+    "parity",
+    "echo",
+    "handshake",
+    "layout",
+    "window",
+    "folded",
+}  # where a program was folded, with its file
 WAYS = pytest.mark.parametrize("way", [Mouse, Keys], ids=["mouse", "keyboard"])
 
 

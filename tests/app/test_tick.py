@@ -72,7 +72,7 @@ def test_only_visible_panels_are_refreshed_and_polled_for(qtbot: QtBot, tick: Ti
     assert math.isnan(rig.controller.last().value("inputs"))
     shown.hide()
     tick.once()
-    rig.run(0.5)
+    rig.run(1.5)  # once a second something is read in any case; what nobody wants is gone then
     assert math.isnan(rig.controller.last().value("position.x"))
 
 
@@ -131,7 +131,8 @@ def test_failures_are_sentences() -> None:
 
 def test_it_is_the_only_timer_of_the_shell(stage: Stage) -> None:
     ours = [timer for timer in stage.studio.findChildren(QTimer) if timer.interval() < 1000]
-    assert [type(timer.parent()) for timer in ours] == [Tick]
+    running = [type(timer.parent()) for timer in ours if not timer.isSingleShot()]
+    assert running == [Tick]  # what waits once for a pause touches no live data
 
 
 def test_refreshing_twice_with_the_same_row_changes_nothing(stage: Stage) -> None:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from widgets.parts.plot import Plot
 
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see where its axes go."
+TOGETHER_S = 0.0005  # read in one line
 ONE_AXIS = "This controller has one axis; a view from above needs two."
 
 
@@ -76,8 +77,8 @@ class PlanePanel(Panel):
         now = self._clock()
         stale = any(row.stale(f"position.{letter.lower()}", now) for letter in self.shown)
         if not stale:
-            changed = self.actual.add(*self._place(row, "position"))
-            if self.commanded.add(*self._place(row, "commanded")) or changed:
+            changed = [trail.add(*self._place(row, name)) for name, trail in self._trails if self._together(row, name)]
+            if any(changed):
                 self._draw()
         set_text(self.place, self._words(row, now))
 
@@ -91,6 +92,15 @@ class PlanePanel(Panel):
     def words(self) -> str:
         """What is shown, as text."""
         return self.empty.text() if self.empty.isVisibleTo(self) else self.place.text()
+
+    @property
+    def _trails(self) -> tuple[tuple[str, Trail], tuple[str, Trail]]:
+        return ("position", self.actual), ("commanded", self.commanded)
+
+    def _together(self, row: Row, name: str) -> bool:
+        """Whether both places are of one moment; places of two moments make a point where nothing ever was."""
+        first, second = (row.time(f"{name}.{letter.lower()}") for letter in self.shown)
+        return abs(first - second) < TOGETHER_S
 
     def _place(self, row: Row, name: str) -> tuple[float, float]:
         assert self._setup is not None

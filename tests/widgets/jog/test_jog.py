@@ -36,7 +36,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     made.studio.desk.bring("Jog")
     made.go()
     yield made
-    made.studio.close()
+    made.clear_away()
 
 
 def ready(stage: Stage, kind: str = "simulator") -> OneAxisPage:
@@ -179,7 +179,7 @@ def test_a_move_past_a_limit_or_to_a_place_without_home_asks_first(stage: Stage)
     QTest.mouseClick(page.forward, LEFT)
     stage.until(lambda: stage.studio.desk.question is not None)
     question = stage.studio.desk.question
-    assert question is not None and "forward limit 200000" in question.words
+    assert question is not None and "forward limit, 200 mm" in question.words
     assert at(stage) == 0 and not moving(stage)
     question.close()
     stage.studio.desk.question = None

@@ -36,7 +36,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Stage:
     made.go()
     made.studio.desk.bring("X-Y view")
     yield made
-    made.studio.close()
+    made.clear_away()
 
 
 def test_nothing_connected_and_one_axis_are_said(stage: Stage) -> None:

@@ -27,7 +27,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     made.studio.window.activateWindow()
     made.studio.terminal.line.setFocus()
     yield made
-    made.studio.close()
+    made.clear_away()
 
 
 def panel(stage: Stage) -> TerminalPanel:

@@ -32,7 +32,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     made.studio.desk.bring("Variables")
     made.go()
     yield made
-    made.studio.close()
+    made.clear_away()
 
 
 def connected(stage: Stage, kind: str = "simulator", model: str = "ssc2") -> ValuesPanel:
