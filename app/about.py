@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from importlib import metadata
-
 from widgets.connect.welcome import DANGER
 
 
 def version() -> str:
     """Of this studio, as it is installed."""
+    from importlib import metadata  # takes a while to load
+
     try:
         return metadata.version("twoletter-studio")
     except metadata.PackageNotFoundError:

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QSize
 from PySide6.QtWidgets import QApplication
 
 from app.actions import MAIN, RUN, Actions
-from app.backup_part import BackupPart
-from app.by_hand import ByHand
 from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
 from app.doctor_desk import DoctorDesk
 from app.editor import Editor
-from app.event_list import Happened
 from app.files import Files
 from app.folding import Folding
 from app.follow import Follow, Program
@@ -26,7 +24,6 @@ from app.found_working import FoundWorking
 from app.importing import Importing
 from app.leaving import Leaving
 from app.live_values import LiveValuesReader
-from app.operator import Operator
 from app.options import Options
 from app.right_machine import RightMachine
 from app.run import Run
@@ -41,7 +38,6 @@ from app.stop_key import StopKey
 from app.talk import Talk
 from app.theme import Choice, Theme
 from app.tick import Tick
-from app.variables import Variables
 from app.which_model import WhichModel
 from app.window import BOTTOM, LEFT, RIGHT, Window
 from codegen.document import Document
@@ -51,15 +47,14 @@ from codegen.slowed import PERCENTS
 from device.api import Controller
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
-from widgets.events.panel import EventsPanel
-from widgets.jog.panel import JogPanel
-from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
-from widgets.plane.panel import PlanePanel
 from widgets.program.view import ProgramView
 from widgets.simulator.panel import SimulatorPanel
 from widgets.terminal.terminal import TerminalPanel
-from widgets.values.panel import ValuesPanel
+
+if TYPE_CHECKING:
+    from app.at_machine import AtMachine
+    from app.backup_part import BackupPart
 
 
 class Studio(QObject):
@@ -86,8 +81,6 @@ class Studio(QObject):
         self.window = Window(self.program)
         self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
-        self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
-        self.jog, self.values, self.event_list = JogPanel(clock=clock), ValuesPanel(), EventsPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
         self.folding = Folding(self.session, self.program, settings, self)
@@ -96,18 +89,15 @@ class Studio(QObject):
         self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)
         self.limits = SetupLimits(self.connection, self.session, self.tick, self.desk.ask, self)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
-        self.proof = BackupPart(
-            self.connection, self.run, self.session, self.desk.ask, data, self.tick, self.program, self.window
-        )
+        self._data = data
+        self.run.before = lambda reason, go_on: self.proof.keeping.before(reason, go_on)
         self.run.before_start = self.limits.careful
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
-        self.variables = Variables(self.connection, self.tick, self.values, self.desk.ask, self.files.folder, self)
         self.editor = Editor(
             self.connection, self.session, self.run, self.desk.ask, self.importing.take, self.files.folder, data,
             self.window,
         )  # fmt: skip
-        self.operator = Operator(self.connection, self.tick, self.keys, ports, self)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.doctor = DoctorDesk(
@@ -120,26 +110,11 @@ class Studio(QObject):
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.setup.facts = self.follow.facts
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
-        self.happened = Happened(self.connection, self.session, self.tick, self.event_list, data, self.window)
-        self.by_hand = ByHand(
-            self.connection, self.session, self.tick, self.jog, self.desk.ask, self.ear.homed_axes, self
-        )
         self.program.live = LiveValuesReader(self.connection, self.tick)
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
-        self.panels: tuple[Panel, ...] = (
-            self.display,
-            self.messages,
-            self.plane,
-            self.keys,
-            self.jog,
-            self.values,
-            self.event_list,
-            self.terminal,
-            self.simulator,
-            self.ear,
-            self.happened.ear,
-        )
+        self._clock, self._ports = clock, ports
+        self.panels: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
         self._fill_window()
         self._join()
         self._attach(self.connection.controller)
@@ -169,18 +144,18 @@ class Studio(QObject):
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
-            "plane": partial(desk.bring, "X-Y view"), "operator": partial(desk.bring, "Operator terminal"),
-            "events": partial(desk.bring, "Events"),
+            "plane": partial(self._bring, "X-Y view"), "operator": partial(self._bring, "Operator terminal"),
+            "events": partial(self._bring, "Events"),
             "editor": self.editor.show,
-            "jog": partial(desk.bring, "Jog"), "variables": partial(desk.bring, "Variables"),
+            "jog": partial(self._bring, "Jog"), "variables": partial(self._bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial, "doctor": self.doctor.show,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
             "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
             **{f"execute_{each}": partial(run.execute_slowly, each) for each in PERCENTS},
-            "compare": self.proof.comparing.show, "backups": self.proof.backups.show,
-            "handover": self.proof.handing.show, "print_pack": self.proof.handing.show_pack,
+            "compare": lambda: self.proof.comparing.show(), "backups": lambda: self.proof.backups.show(),
+            "handover": lambda: self.proof.handing.show(), "print_pack": lambda: self.proof.handing.show_pack(),
             "stop": self.connection.stop, "help": desk.help_for_focus,
             "about": self._about, "help_wiring": self._wiring,
             "help_programming": partial(desk.show_help, "Programming"),
@@ -192,16 +167,11 @@ class Studio(QObject):
         window, header = self.window, self.window.header
         window.add("Instructions", self.program.instructions, LEFT)
         window.add("Display", self.display, RIGHT, moves=True)
-        window.add("Jog", self.jog, RIGHT, moves=True)
-        window.add("X-Y view", self.plane, RIGHT)
-        window.add("Operator terminal", self.keys, RIGHT, moves=True)
         window.add("Simulator", self.simulator, RIGHT, moves=True)
         window.add("Inspector", self.program.inspector, RIGHT)
         window.add("Problems", self.program.problems, BOTTOM)
         window.add("Messages", self.messages, BOTTOM)
         window.add("Terminal", self.terminal, BOTTOM, moves=True)
-        window.add("Variables", self.values, BOTTOM, moves=True)
-        window.add("Events", self.event_list, BOTTOM)
         self.actions.fill_menus(header.menus, window.submenus)
         self.actions.fill_toolbar(header.toolbar, MAIN)
         self.actions.fill_toolbar(window.run_bar.toolbar, RUN)
@@ -212,6 +182,7 @@ class Studio(QObject):
         for panel in self.panels:
             self.tick.add(panel)
         for look in (
+            self._make_panels,
             self.leaving.look,
             self.ear.look,
             self.follow.look,
@@ -236,9 +207,6 @@ class Studio(QObject):
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)
-        self.proof.comparing.show_step.connect(self.program.reveal_step)
-        self.event_list.line_wanted.connect(self.ear.reveal)
-        self.proof.backups.act.connect(lambda name: self.actions[name].trigger())
         for said in (
             self.files.said,
             self.setup.said,
@@ -248,13 +216,39 @@ class Studio(QObject):
             self.start.said,
             self.talk.said,
             self.leaving.said,
-            self.proof.said,
-            self.happened.said,
             self.session.autosave_failed,
         ):
             said.connect(self.desk.say)
         for complaint in self.settings.complaints:
             self.desk.say(complaint)
+
+    @cached_property
+    def at_machine(self) -> AtMachine:
+        """Jog, X-Y view, variables, events, operator terminal; made with the first tick, as they open later."""
+        from app.at_machine import AtMachine
+
+        made = AtMachine(self, self._data, self._clock, self._ports)
+        self.panels += made.panels
+        for panel in made.panels:
+            self.tick.add(panel)
+            panel.attach(self.connection.controller)
+            panel.show_document(None, self.session.document)
+        for title, panel, area in made.docks:
+            self.desk.add(title, panel, area)
+        return made
+
+    @cached_property
+    def proof(self) -> BackupPart:
+        """Compare, back-ups, handover; made with the first tick, because the first window does not need it."""
+        from app.backup_part import BackupPart
+
+        proof = BackupPart(
+            self.connection, self.run, self.session, self.desk.ask, self._data, self.tick, self.program, self.window
+        )
+        proof.comparing.show_step.connect(self.program.reveal_step)
+        proof.backups.act.connect(lambda name: self.actions[name].trigger())
+        proof.said.connect(self.desk.say)
+        return proof
 
     def _join_window(self) -> None:
         window = self.window
@@ -322,6 +316,15 @@ class Studio(QObject):
     def _new(self) -> None:
         """An empty program for the machine whose setup was finished last."""
         self.files.careful("Start a new program?", lambda: self.session.new(self.setup.default))
+
+    def _make_panels(self) -> None:
+        """With the first tick, those that the first window does not need."""
+        assert self.at_machine
+
+    def _bring(self, title: str) -> None:
+        """A panel that may have to be made first."""
+        self._make_panels()
+        self.desk.bring(title)
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

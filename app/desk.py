@@ -28,6 +28,7 @@ from widgets.parts.question import Question
 
 if TYPE_CHECKING:
     from widgets.help.panel import HelpPanel
+    from widgets.panel import Panel
     from widgets.terminal.code_window import CodeWindow
     from widgets.unsaved.window import UnsavedWork
 
@@ -100,6 +101,11 @@ class Desk(QObject):
         if not self._window.restore(self._settings.get("window")):
             layout = LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"])
             self._window.arrange(layout.panels, layout.front)
+
+    def add(self, title: str, panel: Panel, area: Qt.DockWidgetArea) -> None:
+        """A panel that is made after the window: where it was last time, else as the layout has it."""
+        layout = LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"])
+        self._window.add_late(title, panel, area, shown=title in layout.panels)
 
     def choose_theme(self, name: str, actions: Actions) -> None:
         """Light, dark or system, remembered."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -12,13 +12,20 @@ from app.connection import Connection
 from app.search import Candidate
 from app.tick import Tick
 from device.api import Kind, LineSettings, State
-from device.doctor import Diagnosis, examination
-from device.download import Job
 
 if TYPE_CHECKING:
+    from device.doctor import Diagnosis
+    from device.download import Job
     from widgets.connect.doctor import DoctorWindow
 
-Examine = Callable[[str, LineSettings], Job[Diagnosis]]
+Examine: TypeAlias = "Callable[[str, LineSettings], Job[Diagnosis]]"
+
+
+def examined(device: str, line: LineSettings) -> Job[Diagnosis]:
+    """The examination; what it needs is loaded when somebody asks for one."""
+    from device.doctor import examination
+
+    return examination(device, line)
 
 
 class DoctorDesk(QObject):
@@ -34,7 +41,7 @@ class DoctorDesk(QObject):
         line: Callable[[], LineSettings],
         chosen: Callable[[], str],
         parent: QWidget,
-        examine: Examine = examination,
+        examine: Examine = examined,
     ) -> None:
         super().__init__(parent)
         self._connection, self._ports, self._line, self._chosen = connection, ports, line, chosen

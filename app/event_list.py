@@ -6,7 +6,6 @@ import json
 import platform
 import threading
 import time
-import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict
 from io import BytesIO
@@ -17,13 +16,11 @@ from PySide6.QtCore import QBuffer, QIODevice, QObject, Signal, qVersion
 from PySide6.QtWidgets import QWidget
 
 from app.about import version
-from app.backup_before import FOLDER, folder_of
 from app.connection import Connection
 from app.session import Session
 from app.tick import Tick
 from codegen.files import dumps, setup_dumps
 from device.api import EventList, Kind
-from device.backup_kept import kept
 from device.events import EventFile
 from device.events_heard import EventsHeard
 from widgets.events.panel import EventsPanel
@@ -85,7 +82,7 @@ class Happened(QObject):
     ) -> None:
         super().__init__(window)
         self._connection, self._session, self._window = connection, session, window
-        self._backups = data / FOLDER
+        self._data = data
         self.events = EventList(EventFile(data / "events.jsonl"))
         self.ear = Ear(EventsHeard(self.events))
         self._writing: threading.Thread | None = None
@@ -108,7 +105,9 @@ class Happened(QObject):
 
     def save_bundle(self, path: Path) -> None:
         """Gathers here, writes beside the window's thread."""
-        parts, folder = self.parts(), folder_of(self._backups, self._connection.controller)
+        from app.backup_before import FOLDER, folder_of
+
+        parts, folder = self.parts(), folder_of(self._data / FOLDER, self._connection.controller)
         self._writing = threading.Thread(target=self._write, args=(path, parts, folder), name="service bundle")
         self._writing.start()
 
@@ -146,6 +145,8 @@ class Happened(QObject):
         return "".join(f"{name}: {text}\n" for name, text in facts.items())
 
     def _write(self, path: Path, parts: Mapping[str, bytes], folder: Path | None) -> None:
+        from device.backup_kept import kept
+
         newest = next(iter(kept(folder)), None) if folder is not None else None
         backup = newest.path if newest is not None else None
         try:
@@ -157,6 +158,8 @@ class Happened(QObject):
 
 def zipped(parts: Mapping[str, bytes], backup: Path | None) -> bytes:
     """The parts as one file; a back-up that can not be read any more is left out."""
+    import zipfile
+
     whole = BytesIO()
     with zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as file:
         for name, data in parts.items():

@@ -13,6 +13,7 @@ from app.header import Header
 from app.run_bar import RunBar
 from app.status import Status
 from device.api import Kind, StopState
+from widgets.panel import Panel
 from widgets.parts.kind import WORDS
 from widgets.terminal.prompt import PromptBox
 
@@ -79,6 +80,18 @@ class Window(QMainWindow):
         for signal in (dock.dockLocationChanged, dock.visibilityChanged, dock.topLevelChanged):
             signal.connect(self._titles.start)
         return dock
+
+    def add_late(self, title: str, content: Panel, area: Qt.DockWidgetArea, shown: bool) -> None:
+        """The same after the others have been arranged: behind them, unless it is remembered to be elsewhere."""
+        before = [dock for dock in self._areas.get(area, []) if not dock.isFloating()]
+        dock = self.add(title, content, area, moves=content.moves)
+        if self.restoreDockWidget(dock):
+            return
+        if before:
+            front = next((each for each in before if not each.visibleRegion().isEmpty()), before[0])
+            self.tabifyDockWidget(before[-1], dock)
+            dock.setVisible(shown)
+            front.raise_()
 
     def show_title(self, name: str, kind: Kind) -> None:
         """The program's name and the kind, in the title bar of the system."""

@@ -23,7 +23,7 @@ def event_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go(90)
     stage.controller.stop()
     stage.go(30)
-    stage.studio.event_list.table.selectRow(1)
+    stage.studio.at_machine.event_list.table.selectRow(1)
     stage.go()
     yield "panel-events", stage.studio.window
 

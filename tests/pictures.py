@@ -184,7 +184,7 @@ def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.until(lambda: not stage.rig.simulation.state()["axes"]["X"]["moving"])
     stage.studio.desk.bring("Jog")
     stage.go(5)
-    panel = stage.studio.jog
+    panel = stage.studio.at_machine.jog
     assert panel.one is not None
     panel.one.hold_forward.pressed.emit()
     for _ in range(20):
@@ -203,7 +203,7 @@ def _values(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     """Variables beside a recipe, and an array with its picture."""
     stage.rig.start("#A\nLEN=12.5\nCOUNT=1200\nDM POS[20]\nN=0\n#L;POS[N]=N*N;N=N+1;JP #L,N<20\nEN")
     stage.later(1)
-    panel = stage.studio.values
+    panel = stage.studio.at_machine.values
     stage.studio.desk.bring("Variables")
     panel.read.click()
     stage.until(lambda: "LEN 12.5" in panel.words())
@@ -216,7 +216,7 @@ def _values(stage: Stage) -> Iterator[tuple[str, QWidget]]:
 
 def _operator(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     """Both forms of the operator terminal, with what a program wrote on its display."""
-    keys = stage.studio.keys
+    keys = stage.studio.at_machine.keys
     stage.studio.desk.bring("Operator terminal")
     stage.go()
     keys.connect_button.click()

@@ -29,7 +29,7 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
 
 
 def words(stage: Stage) -> str:
-    return stage.studio.event_list.words()
+    return stage.studio.at_machine.event_list.words()
 
 
 def test_nothing_yet_then_a_limit_with_its_place_and_the_next_step(stage: Stage) -> None:
@@ -52,7 +52,7 @@ def test_stop_download_and_program_errors_are_there_and_found(stage: Stage) -> N
     stage.until(lambda: "STOP was pressed" in words(stage))
     stage.rig.start("#A\nPR 100\nQQ 5\nEN")
     stage.until(lambda: "program error" in words(stage))
-    panel = stage.studio.event_list
+    panel = stage.studio.at_machine.event_list
     panel.table.setCurrentCell(0, 0)
     stage.until(lambda: "error 1" in words(stage))
     panel.table.setCurrentCell(1, 0)
@@ -72,11 +72,11 @@ def test_a_line_is_shown_where_it_is_of_the_open_program(stage: Stage) -> None:
     stage.connect("simulator", "ssc1")
     said: list[str] = []
     stage.studio.ear._say = said.append
-    stage.studio.event_list.line_wanted.emit(1)
+    stage.studio.at_machine.event_list.line_wanted.emit(1)
     assert said == ["Line 1 is of another program than the open one."]
     stage.download()
     stage.go()
-    stage.studio.event_list.line_wanted.emit(1)
+    stage.studio.at_machine.event_list.line_wanted.emit(1)
     assert len(said) == 1
     step = stage.studio.session.listing.step_of(stage.studio.ear._kept[1])
     assert stage.studio.program.current_step() == step
@@ -87,7 +87,7 @@ def test_events_survive_the_studio(stage: Stage, tmp_path: Path) -> None:
     stage.controller.stop()
     stage.until(lambda: "STOP was pressed" in words(stage))
     other = make_studio(tmp_path)
-    assert any("STOP was pressed" in event.text for event in other.studio.happened.events.all())
+    assert any("STOP was pressed" in event.text for event in other.studio.at_machine.happened.events.all())
     other.clear_away()
 
 
@@ -95,9 +95,11 @@ def test_the_service_bundle_holds_everything(stage: Stage, tmp_path: Path) -> No
     stage.connect("simulator", "ssc1")
     stage.download()
     path = tmp_path / "service.zip"
-    QTest.mouseClick(stage.studio.event_list.bundle, Qt.MouseButton.LeftButton)  # asks for a file; F12 still works
-    stage.studio.happened.save_bundle(path)
-    stage.until(lambda: stage.studio.happened._writing is None)
+    QTest.mouseClick(
+        stage.studio.at_machine.event_list.bundle, Qt.MouseButton.LeftButton
+    )  # asks for a file; F12 still works
+    stage.studio.at_machine.happened.save_bundle(path)
+    stage.until(lambda: stage.studio.at_machine.happened._writing is None)
     with zipfile.ZipFile(path) as bundle:
         assert bundle.testzip() is None
         names = set(bundle.namelist())
@@ -110,7 +112,7 @@ def test_the_service_bundle_holds_everything(stage: Stage, tmp_path: Path) -> No
 
 def test_a_bundle_that_can_not_be_written_is_said(stage: Stage, tmp_path: Path) -> None:
     said: list[str] = []
-    stage.studio.happened.said.connect(said.append)
-    stage.studio.happened.save_bundle(tmp_path / "no" / "such" / "folder.zip")
+    stage.studio.at_machine.happened.said.connect(said.append)
+    stage.studio.at_machine.happened.save_bundle(tmp_path / "no" / "such" / "folder.zip")
     stage.until(lambda: said)
     assert said[0].startswith("The service bundle was not saved")

@@ -42,9 +42,9 @@ def stage(qapp: QApplication, tmp_path: Path) -> Stage:
 def plug(stage: Stage) -> None:
     """The panel's own button; the line opens beside the window's thread."""
     stage.go()
-    QTest.mouseClick(stage.studio.keys.connect_button, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(stage.studio.at_machine.keys.connect_button, Qt.MouseButton.LeftButton)
     end = time.monotonic() + 10
-    while not stage.studio.keys._open:
+    while not stage.studio.at_machine.keys._open:
         assert time.monotonic() < end
         stage.go(1)
 
@@ -54,7 +54,7 @@ def position(stage: Stage, axis: str) -> float:
 
 
 def test_function_keys_start_the_axes_of_the_manuals_example(stage: Stage) -> None:
-    rig, keys = stage.connect("simulator", "ssc2"), stage.studio.keys
+    rig, keys = stage.connect("simulator", "ssc2"), stage.studio.at_machine.keys
     plug(stage)
     rig.start(EXAMPLE)
     stage.until(lambda: "Y" in keys.words())
@@ -70,7 +70,7 @@ def test_function_keys_start_the_axes_of_the_manuals_example(stage: Stage) -> No
 
 
 def test_an_answer_is_typed_on_either_keypad_and_on_the_keyboard(stage: Stage) -> None:
-    rig, keys = stage.connect("simulator", "ssc1"), stage.studio.keys
+    rig, keys = stage.connect("simulator", "ssc1"), stage.studio.at_machine.keys
     plug(stage)
     rig.start('CC 9600,0,0,1\nIN{P2} "Enter Value",NUM\nMG{P2} NUM{F5.1}\nEN')  # l.5341
     stage.until(lambda: "Enter Value" in keys.words())
@@ -84,7 +84,7 @@ def test_an_answer_is_typed_on_either_keypad_and_on_the_keyboard(stage: Stage) -
 
 
 def test_shift_and_ctrl_hold_for_one_key(stage: Stage) -> None:
-    rig, keys = stage.connect("simulator", "ssc1"), stage.studio.keys
+    rig, keys = stage.connect("simulator", "ssc1"), stage.studio.at_machine.keys
     plug(stage)
     rig.start("CC 9600,0,0,1;CI ,2\n#L;JP #L\nEN\n#COMINT\nC=P2CH;N=N+1;EN 1,1")
     sent: list[bytes] = []
@@ -97,7 +97,7 @@ def test_shift_and_ctrl_hold_for_one_key(stage: Stage) -> None:
 
 
 def test_without_control_or_controller_no_key_is_sent(stage: Stage) -> None:
-    keys, sent = stage.studio.keys, []
+    keys, sent = stage.studio.at_machine.keys, []
     keys.keys.connect(sent.append)
     stage.go()
     assert keys.reason == NOWHERE and not keys.connect_button.isEnabled()
@@ -112,13 +112,15 @@ def test_without_control_or_controller_no_key_is_sent(stage: Stage) -> None:
     assert not sent
     stage.studio.connection.go_offline()  # the line to port 2 ends with the connection
     stage.go()
-    assert stage.studio.operator.port is None and stage.controller.kind is Kind.OFFLINE
+    assert stage.studio.at_machine.operator.port is None and stage.controller.kind is Kind.OFFLINE
 
 
 def test_a_machine_offers_other_devices_than_its_own(stage: Stage) -> None:
     stage.connect("machine", "ssc1")
     stage.go(90)
-    offered = [stage.studio.keys.line.itemText(index) for index in range(stage.studio.keys.line.count())]
+    offered = [
+        stage.studio.at_machine.keys.line.itemText(index) for index in range(stage.studio.at_machine.keys.line.count())
+    ]
     assert offered == ["/dev/ttyUSB0"] and SIMULATED not in offered
 
 

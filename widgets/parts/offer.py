@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
-from codegen.twoletter.complete import Candidate
 from widgets.parts.look import look
+
+if TYPE_CHECKING:
+    from codegen.twoletter.complete import Candidate
 
 ROWS, WIDTH = 8, 420  # px
 

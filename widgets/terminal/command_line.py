@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from html import escape
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent
@@ -11,8 +11,10 @@ from PySide6.QtWidgets import QLineEdit, QWidget
 
 from codegen.docs import command_page
 from codegen.models import MODELS, Model
-from codegen.twoletter.complete import Candidate, Names, ParameterHelp, complete, parameter_help
 from widgets.parts.offer import Offer, begun
+
+if TYPE_CHECKING:  # what fits is looked up when something is typed
+    from codegen.twoletter.complete import Candidate, Names, ParameterHelp
 
 MOST_EARLIER = 500  # lines
 
@@ -26,7 +28,7 @@ class CommandLine(QLineEdit):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.model: Model = MODELS["ssc4"]
-        self.names = Names()
+        self.names: Names | None = None
         self._earlier: list[str] = []
         self._at = 0
         self.offer = Offer(self)
@@ -102,6 +104,8 @@ class CommandLine(QLineEdit):
 
     def _look(self, always: bool = False) -> None:
         """While a word is typed; on Ctrl+Space also where none has begun."""
+        from codegen.twoletter.complete import complete
+
         column = self.cursorPosition()
         wanted = always or begun(self.text(), column)
         found = complete(self.text(), column, self.model, self.names) if wanted else []
@@ -115,6 +119,11 @@ class CommandLine(QLineEdit):
         self.offer.hide()
 
     def _tell(self) -> None:
+        if not self.text():
+            self.help_changed.emit("")
+            return
+        from codegen.twoletter.complete import parameter_help
+
         found = parameter_help(self.text(), self.cursorPosition(), self.model)
         self.help_changed.emit(words_of(found) if found is not None else "")
 
@@ -129,6 +138,8 @@ class CommandLine(QLineEdit):
 
 def words_of(found: ParameterHelp) -> str:
     """The command in one line of rich text, the parameter at the cursor in bold."""
+    from html import escape
+
     parts = []
     for place, each in enumerate(found.parameters):
         words = escape(" ".join(filter(None, (each.name, each.range))))

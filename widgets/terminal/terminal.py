@@ -9,8 +9,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent, QTextCharFormat, QTextCursor
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from codegen.twoletter.complete import names_of
-from codegen.twoletter.parse import parse
 from device.api import Kind, NoticeKind
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.files import LOGS, ask_save
@@ -78,6 +76,9 @@ class TerminalPanel(Panel):
         if known != self._known:
             self._known = known
             if controller.model is not None:
+                from codegen.twoletter.complete import names_of
+                from codegen.twoletter.parse import parse
+
                 names = names_of(parse(controller.listing or "").lines, controller.model)
                 self.line.show_names(controller.model, names)
         if self.traffic.isChecked():

@@ -42,10 +42,10 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
 def ready(stage: Stage, kind: str = "simulator") -> OneAxisPage:
     """Connected, the pages there."""
     stage.connect(kind, "ssc2")
-    stage.until(lambda: stage.studio.jog.one is not None)
+    stage.until(lambda: stage.studio.at_machine.jog.one is not None)
     stage.go(5)
-    assert stage.studio.jog.one is not None
-    return stage.studio.jog.one
+    assert stage.studio.at_machine.jog.one is not None
+    return stage.studio.at_machine.jog.one
 
 
 def typed(page: OneAxisPage | TogetherPage, name: str, text: str, axis: str = "") -> None:
@@ -60,7 +60,7 @@ def held_for(stage: Stage, ticks: int) -> None:
     """Time passes while something is held; the timer of the window does not run in virtual time."""
     for _ in range(ticks):
         stage.go(1)
-        stage.studio.jog._renew()
+        stage.studio.at_machine.jog._renew()
 
 
 def at(stage: Stage, axis: str = "X") -> int:
@@ -75,7 +75,7 @@ def still(stage: Stage) -> JogPanel:
     stage.go(3)
     stage.until(lambda: not moving(stage) and not moving(stage, "Y") and not stage.controller.motion.busy)
     stage.go(3)
-    return stage.studio.jog
+    return stage.studio.at_machine.jog
 
 
 def test_a_click_is_one_increment(stage: Stage) -> None:
@@ -110,7 +110,7 @@ def test_it_moves_while_the_button_is_held_and_shows_where_it_stops(stage: Stage
 
 @pytest.mark.parametrize("how", ["focus", "hidden", "page", "watch", "stop", "nobody renews"])
 def test_whatever_ends_holding_stops_the_axis(stage: Stage, how: str) -> None:
-    page, panel = ready(stage), stage.studio.jog
+    page, panel = ready(stage), stage.studio.at_machine.jog
     QTest.mousePress(page.hold_back, LEFT)
     held_for(stage, 20)
     assert moving(stage)
@@ -139,7 +139,7 @@ def test_whatever_ends_holding_stops_the_axis(stage: Stage, how: str) -> None:
 
 
 def test_arrows_hold_and_with_shift_they_step(stage: Stage) -> None:
-    page, panel = ready(stage), stage.studio.jog
+    page, panel = ready(stage), stage.studio.at_machine.jog
     panel.setFocus()
     QTest.keyPress(panel, Qt.Key.Key_Right)
     held_for(stage, 20)
@@ -208,7 +208,7 @@ def test_zero_here_asks_and_moves_nothing(stage: Stage) -> None:
 
 def test_a_line_and_an_arc_end_where_geometry_says(stage: Stage) -> None:
     ready(stage)
-    panel = stage.studio.jog
+    panel = stage.studio.at_machine.jog
     panel.buttons[1].click()
     line, arc = panel.line, panel.arc
     assert line is not None and arc is not None
@@ -237,7 +237,7 @@ def test_two_scales_make_no_circle_and_a_wrong_number_no_move(stage: Stage) -> N
     setup = dc.replace(document.setup, axes=tuple(axes))
     stage.studio.session.set_document(dc.replace(document, setup=setup), "Other scale")
     stage.go()
-    panel = stage.studio.jog
+    panel = stage.studio.at_machine.jog
     assert panel.arc is not None and panel.arc.plan is None
     assert "an ellipse" in panel.arc.words.text()
     typed(page, "distance", "12,5")
@@ -247,9 +247,9 @@ def test_two_scales_make_no_circle_and_a_wrong_number_no_move(stage: Stage) -> N
 
 def test_offline_and_watch_say_why_nothing_moves(stage: Stage) -> None:
     stage.go()
-    assert stage.studio.jog.words() == OFFLINE
+    assert stage.studio.at_machine.jog.words() == OFFLINE
     page = ready(stage, "machine")
-    assert stage.studio.jog.reason == WATCHED
+    assert stage.studio.at_machine.jog.reason == WATCHED
     buttons: list[QPushButton] = [page.forward, page.hold_forward, page.home, page.zero]
     assert not any(button.isEnabled() for button in buttons)
     assert page.forward.toolTip() == WATCHED

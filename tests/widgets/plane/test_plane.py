@@ -41,15 +41,15 @@ def stage(qapp: QApplication, tmp_path: Path) -> Stage:
 
 def test_nothing_connected_and_one_axis_are_said(stage: Stage) -> None:
     stage.go()
-    assert stage.studio.plane.words() == EMPTY
+    assert stage.studio.at_machine.plane.words() == EMPTY
     stage.connect("simulator", "ssc1")
     stage.go()
-    assert stage.studio.plane.words() == ONE_AXIS
+    assert stage.studio.at_machine.plane.words() == ONE_AXIS
 
 
 def test_a_circle_leaves_a_circle(stage: Stage) -> None:
     rig = stage.connect("simulator", "ssc2")
-    plane = stage.studio.plane
+    plane = stage.studio.at_machine.plane
     rig.type("VS 4000", "VA 200000", "VD 200000", "VM XY", "CR 5000,180,360", "VE", "BGS")
     stage.until(lambda: plane.actual.count > 8)
     stage.until(lambda: not rig.simulation.state()["axes"]["X"]["moving"])
@@ -66,7 +66,7 @@ def test_a_circle_leaves_a_circle(stage: Stage) -> None:
 def test_the_soft_limits_are_drawn_and_the_other_axis_gives_way(stage: Stage) -> None:
     stage.connect("simulator", "ssc3")
     stage.go()
-    plane = stage.studio.plane
+    plane = stage.studio.at_machine.plane
     across, upward = plane._drawn["limits"].getData()
     assert (min(across), max(across), min(upward), max(upward)) == (-50, 200, -50, 200)
     assert plane.shown == "XY"

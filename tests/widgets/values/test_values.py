@@ -40,7 +40,7 @@ def connected(stage: Stage, kind: str = "simulator", model: str = "ssc2") -> Val
     rig = stage.connect(kind, model)
     rig.start(PROGRAM)
     stage.later(0.5)
-    panel = stage.studio.values
+    panel = stage.studio.at_machine.values
     panel.read.click()
     stage.until(lambda: "LEN 12.5" in panel.words())
     return panel
@@ -52,7 +52,7 @@ def row_of(panel: ValuesPanel, name: str) -> int:
 
 def typed(stage: Stage, name: str, text: str) -> None:
     """A value changed as a person does it: the row, F2, the text, Enter."""
-    panel = stage.studio.values
+    panel = stage.studio.at_machine.values
     panel.table.setFocus()
     panel.table.setCurrentCell(row_of(panel, name), VALUE)
     QTest.keyClick(panel.table, Qt.Key.Key_F2)
@@ -67,7 +67,7 @@ def typed(stage: Stage, name: str, text: str) -> None:
 @pytest.mark.parametrize("model", ["ssc2", "dmc1412"])
 def test_numbers_texts_and_arrays_are_shown(stage: Stage, model: str) -> None:
     stage.go()
-    assert stage.studio.values.words() == OFFLINE
+    assert stage.studio.at_machine.values.words() == OFFLINE
     panel = connected(stage, model=model)
     assert "NAME " in panel.words() and '"CUT"' in panel.words()
     panel.table.setCurrentCell(row_of(panel, "POS[ ]"), 0)
@@ -102,12 +102,12 @@ def test_in_watch_it_reads_and_changes_nothing(stage: Stage) -> None:
 
 def test_a_recipe_is_saved_compared_and_sent(stage: Stage, tmp_path: Path) -> None:
     panel, path = connected(stage), tmp_path / "long.tlr"
-    stage.studio.variables.save_recipe(path)
+    stage.studio.at_machine.variables.save_recipe(path)
     stage.until(path.exists)
     assert read_recipe(path.read_text(encoding="utf-8"))["LEN"] == "12.5"
     typed(stage, "LEN", "3")
     stage.until(lambda: "LEN 3" in panel.words())
-    stage.studio.variables.open_recipe(path)
+    stage.studio.at_machine.variables.open_recipe(path)
     assert "LEN 3 ≠ 12.5" in panel.words()
     assert stage.rig.simulation.state()["variables"]["LEN"] == 3
     panel.send.click()

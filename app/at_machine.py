@@ -1,0 +1,50 @@
+"""The panels at the machine and what joins them to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.by_hand import ByHand
+from app.event_list import Happened
+from app.operator import Operator
+from app.search import Candidate
+from app.variables import Variables
+from app.window import BOTTOM, RIGHT
+from widgets.events.panel import EventsPanel
+from widgets.jog.panel import JogPanel
+from widgets.operator.panel import OperatorPanel
+from widgets.panel import Panel
+from widgets.plane.panel import PlanePanel
+from widgets.values.panel import ValuesPanel
+
+if TYPE_CHECKING:
+    from app.compose import Studio
+
+
+class AtMachine:
+    """`panels` want rows and notices; `docks` are titles, panels and places."""
+
+    def __init__(
+        self, studio: Studio, data: Path, clock: Callable[[], float], ports: Callable[[], list[Candidate]]
+    ) -> None:
+        connection, tick, ask = studio.connection, studio.tick, studio.desk.ask
+        self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
+        self.jog, self.values, self.event_list = JogPanel(clock=clock), ValuesPanel(), EventsPanel()
+        self.variables = Variables(connection, tick, self.values, ask, studio.files.folder, studio)
+        self.operator = Operator(connection, tick, self.keys, ports, studio)
+        self.happened = Happened(connection, studio.session, tick, self.event_list, data, studio.window)
+        self.by_hand = ByHand(connection, studio.session, tick, self.jog, ask, studio.ear.homed_axes, studio)
+        self.event_list.line_wanted.connect(studio.ear.reveal)
+        self.happened.said.connect(studio.desk.say)
+        self.panels: tuple[Panel, ...] = (
+            self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
+        )  # fmt: skip
+        self.docks = (
+            ("Jog", self.jog, RIGHT),
+            ("X-Y view", self.plane, RIGHT),
+            ("Operator terminal", self.keys, RIGHT),
+            ("Variables", self.values, BOTTOM),
+            ("Events", self.event_list, BOTTOM),
+        )
