@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import QObject, QPoint, Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar, QToolButton
 
@@ -242,11 +242,17 @@ class Actions(QObject):
                     button.setAccessibleName(self.rows[name].text.rstrip("…"))
 
     def open_below(self, bar: QToolBar, name: str, menu: QMenu) -> None:
-        """A button of the toolbar with a menu of its own behind its arrow."""
-        button = bar.widgetForAction(self.actions[name])
-        if isinstance(button, QToolButton):
-            button.setMenu(menu)
-            button.setPopupMode(QToolButton.ToolButtonPopupMode.MenuButtonPopup)
+        """An arrow behind a button of the toolbar opens a menu; it waits for nothing, as a button's own menu would."""
+        arrow = QToolButton()
+        arrow.setArrowType(Qt.ArrowType.DownArrow)
+        arrow.setObjectName("arrow")
+        arrow.setAccessibleName(menu.title())
+        arrow.setToolTip(menu.title())
+        arrow.setFocusPolicy(arrow.focusPolicy().TabFocus)
+        arrow.clicked.connect(lambda: menu.popup(arrow.mapToGlobal(QPoint(0, arrow.height()))))
+        shown = bar.actions()
+        place = shown.index(self.actions[name]) + 1
+        bar.insertWidget(shown[place] if place < len(shown) else None, arrow)  # type: ignore[arg-type]
 
     def _add_program(self, menu: QMenu, name: str) -> None:
         if name.startswith("-"):
