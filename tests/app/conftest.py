@@ -15,6 +15,7 @@ from tests.stage import Stage, make_studio
 def stage(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
     """Offline, the wire cutter open, shown."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)  # where files are proposed to be saved
     stage = make_studio(tmp_path)
     stage.studio.window.resize(1280, 800)
     stage.studio.window.show()
