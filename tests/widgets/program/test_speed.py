@@ -1,7 +1,13 @@
-"""1000 steps stay quick on the screen; as in tests/benchmarks, everyday runs allow twice the bound."""
+"""1000 steps stay quick on the screen; everyday runs allow twice the bound of a processor that runs at full speed.
+
+Processors of rented machines swing by a factor of two within seconds, even in processor time. So a fixed piece of
+work is timed beside each measurement; what that takes longer than on the machine of the bounds stretches the bound.
+"""
 
 from __future__ import annotations
 
+import statistics
+import time
 from collections.abc import Callable
 from functools import partial
 
@@ -12,6 +18,7 @@ from tests.long import is_long, record
 from tests.widgets.program.measure import MODES, SEED, edits, opening, undoing, wheel
 
 SLACK = 2.0
+FULL_SPEED_MS = 8.7  # what `beside` takes on the machine of the bounds
 MEASURES: dict[str, Callable[[], Figure]] = {
     **{f"edits-{mode}": partial(edits, mode, 100 if is_long() else 10) for mode in MODES},
     "opening": opening,
@@ -20,15 +27,30 @@ MEASURES: dict[str, Callable[[], Figure]] = {
 }
 
 
+def beside() -> float:
+    """Milliseconds of processor time of a fixed piece of work; the middle of nine."""
+
+    def once() -> float:
+        began = time.process_time()
+        kept: dict[int, tuple[int, str]] = {}
+        for number in range(60_000):
+            kept[number % 997] = (number, str(number))
+        return 1000 * (time.process_time() - began)
+
+    return statistics.median(once() for _ in range(9))
+
+
 @pytest.mark.alone
 @pytest.mark.parametrize("name", MEASURES)
 def test_a_thousand_steps(name: str) -> None:
     def kept(figure: Figure) -> bool:
-        return figure.reached if is_long() else figure.within(SLACK)
+        slower = max(1.0, max(before, beside()) / FULL_SPEED_MS)
+        return figure.reached if is_long() else figure.within(SLACK * slower)
 
+    before = beside()
     figure = MEASURES[name]()
     if not kept(figure):  # once more: another process may have been in the way
-        figure = MEASURES[name]()
+        before, figure = beside(), MEASURES[name]()
     print(figure)
     record(figure.name, "python -m tests.widgets.program.measure", SEED, figure.value, figure.unit)
     assert kept(figure), str(figure)
