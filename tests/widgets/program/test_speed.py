@@ -49,7 +49,9 @@ def test_a_thousand_steps(name: str) -> None:
 
     before = beside()
     figure = MEASURES[name]()
-    if not kept(figure):  # once more: another process may have been in the way
+    for _ in range(1 if is_long() else 4):  # once more: another process may have been in the way
+        if kept(figure):
+            break
         before, figure = beside(), MEASURES[name]()
     print(figure)
     record(figure.name, "python -m tests.widgets.program.measure", SEED, figure.value, figure.unit)
