@@ -71,12 +71,13 @@ class Variables(QObject):
             self._expect(self._values.read(names), self._show_values)
 
     def _show_values(self, values: Mapping[str, Value]) -> None:
-        from device.values import letters_of, number_text
+        from codegen.difference_values import number_text
+        from device.values import letters_of
 
         self._panel.show_values({name: (number_text(each), letters_of(each)) for name, each in values.items()})
 
     def _read_array(self, name: str) -> None:
-        from device.values import number_text
+        from codegen.difference_values import number_text
 
         self._panel.say(f"Reading {name}…")
 
@@ -126,7 +127,7 @@ class Variables(QObject):
         names = self._panel.names
 
         def done(values: Mapping[str, Value]) -> None:
-            from device.values import number_text
+            from codegen.difference_values import number_text
 
             text = recipe_text({name: number_text(each) for name, each in sorted(values.items())})
             try:

@@ -128,7 +128,7 @@ def backup_steps(
     program = yield from upload_steps(c.nonces, None)
     c.set_listing(program)
     end = c.clock() + budget_s  # the download would have read the program anyway
-    names, array_names = yield from _listed(c, model, program)
+    names, array_names = yield from listed(c, model, program)
     _ongoing(job, "variables", 1, 3)
     values = yield from exact(c.nonces, names, model.columns, lambda: c.clock() >= end)
     _ongoing(job, "parameters", 2, 3)
@@ -203,7 +203,7 @@ def _arrays(c: Controller, model: Model, names: Sequence[str], job: Job[Backup])
     return {name: values for name, values in arrays.items() if values}
 
 
-def _listed(c: Controller, model: Model, program: str) -> Steps[tuple[list[str], list[str]]]:
+def listed(c: Controller, model: Model, program: str) -> Steps[tuple[list[str], list[str]]]:
     """Variables and arrays: those the controller lists where it can, and those its program names."""
     variables, arrays = names_in(program)
     for command, found in (("LV", variables), ("LA", arrays)):

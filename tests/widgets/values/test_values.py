@@ -14,8 +14,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit
 
 from app.variables import RecipeUnreadable, read_recipe, recipe_text
+from codegen.difference_values import number_text
 from codegen.twoletter.fixed import ONE, read_decimal, string_value
-from device.values import letters_of, number_text
+from device.values import letters_of
 from tests.stage import Stage, make_studio
 from widgets.values.panel import OFFLINE, VALUE, ValuesPanel
 from widgets.values.typed import assignment
