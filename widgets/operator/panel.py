@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeyEvent, QShowEvent
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
@@ -32,7 +32,6 @@ SIMULATED = "Port 2 of the simulator"
 NOWHERE = "Connect the controller's main port first: STOP goes through it."
 WATCHED = "Switch from Watch to Control first: a key can start a motion."
 CLOSED = "Not connected"
-NAMED = {Qt.Key.Key_Return: "ENTER", Qt.Key.Key_Enter: "ENTER", Qt.Key.Key_Backspace: "BKSPC", Qt.Key.Key_Escape: "ESC"}
 SILENT = "click"
 FORMS = {"Hand-held": HAND_HELD, "Panel": PANEL}
 
@@ -50,8 +49,8 @@ class OperatorPanel(Panel):
         super().__init__(parent)
         self.terminal = Terminal()
         self.screen = Screen(self.terminal)
-        self.screen.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.screen.keyPressEvent = self.keyPressEvent  # type: ignore[method-assign]
+        self.screen.named.connect(lambda name: self._pressed(self.terminal.by_name[name], False, False))
+        self.screen.typed.connect(self._typed)
         self.line, self.form = QComboBox(), QComboBox()
         self.connect_button = QPushButton("Connect")
         self.sounds = QCheckBox("Sounds")
@@ -105,18 +104,6 @@ class OperatorPanel(Panel):
         return self.screen.accessibleDescription()
 
     # ---- keys
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Typed on the computer's keyboard while the display has the focus."""
-        key, text = Qt.Key(event.key()), event.text()
-        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier and Qt.Key.Key_F1 <= key <= Qt.Key.Key_F5:
-            self._pressed(self.terminal.by_name[f"F{key - Qt.Key.Key_F1 + 1}"], False, False)
-        elif key in NAMED and NAMED[key] in self.terminal.by_name:
-            self._pressed(self.terminal.by_name[NAMED[key]], False, False)
-        elif len(text) == 1 and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self._typed(text.upper())
-        else:
-            QWidget.keyPressEvent(self, event)
 
     def _typed(self, character: str) -> None:
         try:

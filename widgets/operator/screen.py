@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF, QSize, QTimer
-from PySide6.QtGui import QFontMetricsF, QHideEvent, QPainter, QPaintEvent, QPen, QShowEvent
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QFontMetricsF, QHideEvent, QKeyEvent, QPainter, QPaintEvent, QPen, QShowEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from device.terminal1500 import COLUMNS, ROWS, Terminal
@@ -12,10 +12,14 @@ from widgets.parts.look import look
 EDGE = 12  # px around the characters
 POINTS = 16.0
 BLINK_MS = 500
+NAMED = {Qt.Key.Key_Return: "ENTER", Qt.Key.Key_Enter: "ENTER", Qt.Key.Key_Backspace: "BKSPC", Qt.Key.Key_Escape: "ESC"}
 
 
 class Screen(QWidget):
-    """Paints a terminal; `refresh` when it may have changed."""
+    """Paints a terminal; `refresh` when it may have changed. Says what is typed while it has the focus."""
+
+    named = Signal(str)  # a key by its name
+    typed = Signal(str)  # a character
 
     def __init__(self, terminal: Terminal, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -26,6 +30,19 @@ class Screen(QWidget):
         self._blink.timeout.connect(self._turn)
         self.setAccessibleName("Display of the operator terminal")
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Shift+F1 to Shift+F5 are F1 to F5, because F1 is help."""
+        key, text, held = Qt.Key(event.key()), event.text(), event.modifiers()
+        if held & Qt.KeyboardModifier.ShiftModifier and Qt.Key.Key_F1 <= key <= Qt.Key.Key_F5:
+            self.named.emit(f"F{key - Qt.Key.Key_F1 + 1}")
+        elif NAMED.get(key) in self.terminal.by_name:
+            self.named.emit(NAMED[key])
+        elif len(text) == 1 and not held & Qt.KeyboardModifier.ControlModifier:
+            self.typed.emit(text.upper())
+        else:
+            super().keyPressEvent(event)
 
     def refresh(self) -> None:
         """Paints again when something has changed."""
