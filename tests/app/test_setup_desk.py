@@ -147,8 +147,7 @@ def test_the_setup_finished_last_is_the_default_of_a_new_program(stage: Stage, t
     assert kept(stage).name == "My machine"
     again = make_studio(tmp_path, example="")
     assert again.studio.session.document.setup.name == "My machine"
-    again.studio.close()
-    again.studio.window.deleteLater()
+    again.clear_away()
 
 
 @pytest.mark.long
@@ -156,8 +155,7 @@ def test_a_damaged_default_is_no_obstacle(tmp_path: Path, qtbot: object) -> None
     (tmp_path / DEFAULT).write_text("{", encoding="utf-8")
     again = make_studio(tmp_path, example="")
     assert again.studio.session.document.setup == Setup()
-    again.studio.close()
-    again.studio.window.deleteLater()
+    again.clear_away()
 
 
 # --------------------------------------------------------------------- files
