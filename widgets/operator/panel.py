@@ -75,6 +75,7 @@ class OperatorPanel(Panel):
             self.line.clear()
             self.line.addItems(wanted)
             self.line.setCurrentText(before)
+            self._show_usable()
 
     def show_line(self, text: str, is_open: bool, failed: bool) -> None:
         """What has become of the line to port 2."""
