@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 MOVES = frozenset({"Motion", "Coordinated motion", "Contour and cam"})  # groups of commands that drive an axis
 ALSO = frozenset({"DP", "SH", "MO"})
 STOPS = frozenset({"ST", "AB"})
+DEAD_ZONE = 0.15  # of a stick's way: no stick comes back to its middle exactly
 FURTHEST = 2147483647  # counts
 
 
@@ -201,6 +202,16 @@ def zero(axes: Iterable[str], place: int = 0) -> Plan:
         f"Position {letters} = {place}", letters, tuple(f"DP {at(letter, place)}" for letter in letters), {},
         defines=letters,
     )  # fmt: skip
+
+
+def deflection(x: float, y: float = 0.0, dead: float = DEAD_ZONE) -> tuple[float, float]:
+    """A stick's place (-1 to 1 each way) as shares of the full speed: 0 in the dead zone, and from there on without a
+    jump; never more than 1 in its direction. A place that is no number is the middle."""
+    way = math.hypot(x, y)
+    if not math.isfinite(way) or way <= dead:
+        return 0.0, 0.0
+    share = (min(way, 1.0) - dead) / (1.0 - dead)
+    return x / way * share, y / way * share
 
 
 def _ramps(axis: str, speed: int, acceleration: int, deceleration: int) -> tuple[str, ...]:
