@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see where its axes go."
 TOGETHER_S = 0.0005  # read in one line
+Path = Sequence[tuple[float, float]]
+PATH = "path "  # before the name of one, among what is drawn
 ONE_AXIS = "This controller has one axis; a view from above needs two."
 
 
@@ -42,6 +44,7 @@ class PlanePanel(Panel):
         self.actual, self.commanded = Trail(), Trail()
         self.plot: Plot | None = None
         self._drawn: dict[str, Any] = {}
+        self._paths: dict[str, Path] = {}
         self.across, self.upward = QComboBox(), QComboBox()
         self.clear, self.fit = QPushButton("Clear trail"), QPushButton("Fit")
         self.place, self.empty = QLabel(), QLabel(EMPTY)
@@ -81,6 +84,13 @@ class PlanePanel(Panel):
             if any(changed):
                 self._draw()
         set_text(self.place, self._words(row, now))
+
+    def show_path(self, name: str, points: Path) -> None:
+        """A path to be driven, thin and under the trail, in user units of X and Y; without points it is gone."""
+        self._paths = {**self._paths, name: tuple(points)}
+        if not points:
+            del self._paths[name]
+        self._draw_paths()
 
     def forget(self) -> None:
         """An empty trail."""
@@ -135,6 +145,7 @@ class PlanePanel(Panel):
         plot.setVisible(bool(self.shown))
         self._name_sides()
         self._draw_limits()
+        self._draw_paths()
         self._draw()
 
     def _draw(self) -> None:
@@ -146,6 +157,20 @@ class PlanePanel(Panel):
             self._drawn[name].setData(trail.points, pen={"color": colour, "width": width})
         for name, trail, colour in (("target", self.commanded, "quiet"), ("head", self.actual, "accent")):
             self._drawn[name].setData(trail.points[-1:], symbolBrush=look().colour(colour), symbolPen=None, pen=None)
+
+    def _draw_paths(self) -> None:
+        """Named ones, each in a line of its own; turned where Y is drawn across."""
+        if self.plot is None:
+            return
+        for name in [key for key in self._drawn if key.startswith(PATH) and key[len(PATH) :] not in self._paths]:
+            self.plot.removeItem(self._drawn.pop(name))
+        for name, points in self._paths.items():
+            line = self._drawn.get(PATH + name) or self.plot.plot()
+            self._drawn[PATH + name] = line
+            line.setZValue(-1)
+            drawn = {"XY": points, "YX": [(y, x) for x, y in points]}.get(self.shown, ())
+            pen = {"color": look().colour("axis_w"), "width": 1.5}
+            line.setData([x for x, _ in drawn], [y for _, y in drawn], pen=pen)
 
     def _draw_limits(self) -> None:
         """The rectangle of the soft limits, when all four are set up."""
@@ -213,6 +238,7 @@ class PlanePanel(Panel):
         self.forget()
         self._name_sides()
         self._draw_limits()
+        self._draw_paths()
 
     def _fit(self) -> None:
         if self.plot is not None:

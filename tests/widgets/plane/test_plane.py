@@ -102,3 +102,17 @@ def test_the_memory_of_the_trail_is_bounded() -> None:
     assert trail.count <= 100
     assert tuple(trail.points[-1]) == (math.cos(999), math.sin(999))
     assert tuple(trail.points[0]) == (1.0, 0.0)  # the beginning is never forgotten
+
+
+def test_a_path_to_be_driven_lies_under_the_trail_and_turns_with_the_axes(stage: Stage) -> None:
+    stage.connect("simulator", "ssc2")
+    plane = stage.studio.at_machine.plane
+    stage.go()
+    plane.show_path("taught", [(0, 0), (3, 0), (3, 4)])
+    line = plane._drawn["path taught"]
+    assert [list(side) for side in line.getData()] == [[0, 3, 3], [0, 0, 4]]
+    plane.across.setCurrentText("Y")  # the other one gives way
+    assert plane.shown == "YX"
+    assert [list(side) for side in line.getData()] == [[0, 0, 4], [0, 3, 3]]
+    plane.show_path("taught", [])
+    assert "path taught" not in plane._drawn
