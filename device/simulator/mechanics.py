@@ -6,7 +6,7 @@ import math
 
 from device.simulator.kernel import layout
 from device.simulator.kernel.layout import State
-from device.simulator.plant import Drive, Place, Plant
+from device.simulator.plant import Drive, Enable, Place, Plant
 
 Matrix = list[list[float]]
 NEVER = 1.0e300
@@ -175,6 +175,7 @@ def write_plant(state: State, b: int, plant: Plant, period: float) -> None:
     kinds[Drive.VOLTAGE] = layout.DRIVE_VOLTAGE if is_electrical(plant) else layout.DRIVE_VELOCITY
     amperes_per_volt = plant.amplifier_gain / (plant.resistance if plant.drive is Drive.VOLTAGE else 1.0)
     home = plant.home_switch or (NEVER, -NEVER)
+    enabling = {Enable.NONE: 0.0, Enable.WIRED: 1.0, Enable.ALWAYS: 2.0}
     sources = {Place.MOTOR: 0.0, Place.LOAD: 1.0, Place.EXTERNAL: 2.0}
     values = {
         layout.DRIVE: kinds[plant.drive],
@@ -200,6 +201,11 @@ def write_plant(state: State, b: int, plant: Plant, period: float) -> None:
         layout.INDEX_AT: plant.index_at,
         layout.REVOLUTION: 4.0 * plant.encoder_lines,
         layout.SUBSTEPS: 1.0,
+        layout.WIRING: -1.0 if plant.motor_reversed else 1.0,
+        layout.ENABLING: enabling[plant.amplifier_enable],
+        layout.DEAD_CHANNEL: float(" ab".index(plant.dead_channel or " ")),
+        layout.LIMITS_SWAPPED: float(plant.limits_swapped),
+        layout.HOME_STUCK: float(plant.home_stuck),
     }
     for slot, value in values.items():
         state[b + slot] = value

@@ -15,6 +15,14 @@ class Drive(StrEnum):
     STEPPER = "stepper"
 
 
+class Enable(StrEnum):
+    """What the amplifier hears of the controller's enable signal (AEN, dmc-1412-1414.txt l.593-597)."""
+
+    WIRED = "wired"
+    NONE = "none"  # never enabled: the motor has no power
+    ALWAYS = "always"  # MO and off-on-error do not reach it
+
+
 class Place(StrEnum):
     """Where an encoder sits."""
 
@@ -58,3 +66,8 @@ class Plant:
     forward_limit: float | None = None
     reverse_limit: float | None = None
     index_at: float = 0.0  # counts modulo 4N
+    motor_reversed: bool = False  # its leads are exchanged: a positive command drives it backwards
+    amplifier_enable: Enable = Enable.WIRED
+    dead_channel: str = ""  # "a" or "b": the encoder's channel that stays low
+    limits_swapped: bool = False  # each limit switch is wired to the other one's input
+    home_stuck: bool = False  # the home input reads 1 whatever the switch does

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from device.simulator.kernel.layout import MAXIMUM_DELAY
-from device.simulator.plant import Drive, Place, Plant
+from device.simulator.plant import Drive, Enable, Place, Plant
 
 AXES = "XYZW"
 POSITIVE = {
@@ -34,10 +34,13 @@ NOT_NEGATIVE = {
     "backlash",
 }
 SIGNED = {"gravity", "auxiliary_ratio", "forward_limit", "reverse_limit", "index_at", "hall_offset"}
+SWITCHES = {"phases_swapped", "motor_reversed", "limits_swapped", "home_stuck"}
 CHOICES: dict[str, tuple[str, ...]] = {
     "drive": tuple(Drive),
     "main": (Place.MOTOR, Place.LOAD),
     "auxiliary": tuple(Place),
+    "amplifier_enable": tuple(Enable),
+    "dead_channel": ("a", "b"),
     "hall_order": ("123", "132", "213", "231", "312", "321"),
 }
 
@@ -80,14 +83,14 @@ def read_value(key: str, value: Any) -> Any:
         if value not in CHOICES[key]:
             allowed = ", ".join(f'"{choice}"' for choice in CHOICES[key])
             raise PlantUnreadable(f"{key} must be one of {allowed}, not {value!r}")
-        return {"drive": Drive, "main": Place, "auxiliary": Place}.get(key, str)(value)
+        return {"drive": Drive, "main": Place, "auxiliary": Place, "amplifier_enable": Enable}.get(key, str)(value)
     if key == "home_switch":
         return switch_range(key, value)
     if key == "delay_samples":
         return whole(key, value, 0, MAXIMUM_DELAY)
     if key == "hall_inputs":
         return whole(key, value, 1, 6)
-    if key == "phases_swapped":
+    if key in SWITCHES:
         if not isinstance(value, bool):
             raise PlantUnreadable(f"{key} must be true or false, not {value!r}")
         return value

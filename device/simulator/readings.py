@@ -37,7 +37,10 @@ class Readings:
         if not part[layout.READ_LATE] or part[layout.ANALOG_FEEDBACK]:
             return part[layout.ACTUAL]
         place = part[layout.LOAD_X if part[layout.MAIN_ON_LOAD] else layout.MOTOR_X]
-        return math.floor(place + 0.5) * part[layout.ENCODER_SIGN] + part[layout.COUNTS_SHIFT]
+        raw = float(math.floor(place + 0.5))
+        if part[layout.DEAD_CHANNEL]:
+            raw = inputs.toggled(raw, part[layout.DEAD_CHANNEL])
+        return raw * part[layout.ENCODER_SIGN] + part[layout.COUNTS_SHIFT]
 
     def reference(self, axis: int) -> int:
         """RP: commanded position, counts (behind the IT filter)."""

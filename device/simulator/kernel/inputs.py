@@ -20,6 +20,7 @@ from device.simulator.kernel.layout import (
     COUNTS,
     COUNTS_BEFORE,
     COUNTS_SHIFT,
+    DEAD_CHANNEL,
     DIRECTION,
     ENCODER_SIGN,
     EVENT,
@@ -36,11 +37,13 @@ from device.simulator.kernel.layout import (
     HOME_FORCED,
     HOME_FROM,
     HOME_LEVEL,
+    HOME_STUCK,
     HOME_TO,
     IN_CONTOUR,
     JOG_V,
     LIMIT_ACTIVE_LEVEL,
     LIMIT_NOW,
+    LIMITS_SWAPPED,
     LOAD_X,
     MAIN_ON_LOAD,
     MODE,
@@ -87,6 +90,12 @@ def uniform(S: State) -> float:
     return S[RANDOM] / MODULUS
 
 
+def toggled(raw: float, dead: float) -> float:
+    """With one channel low the other counts one forward and the same one back (dmc-1412-1414.txt l.606)."""
+    quarter = raw - 4.0 * floor(raw / 4.0)  # A is high in quarters 1 and 2, B in 2 and 3
+    return 1.0 if quarter == 2.0 or quarter == (3.0 if dead == 1.0 else 1.0) else 0.0
+
+
 def read_encoders(S: State, A: State, axis: int, moment: int) -> None:
     """Latches main and auxiliary encoder."""
     x = A[LOAD_X] if A[MAIN_ON_LOAD] != 0.0 else A[MOTOR_X]
@@ -95,6 +104,8 @@ def read_encoders(S: State, A: State, axis: int, moment: int) -> None:
         x += (uniform(S) + uniform(S) + uniform(S) + uniform(S) - 2.0) * ROOT_OF_THREE * noise
     A[RAW_LAST] = A[RAW]
     raw = float(floor(x + 0.5))
+    if A[DEAD_CHANNEL] != 0.0:
+        raw = toggled(raw, A[DEAD_CHANNEL])
     A[RAW] = raw
     counts = raw * A[ENCODER_SIGN]
     if A[ANALOG_FEEDBACK] != 0.0:
@@ -123,6 +134,12 @@ def read_switches(A: State) -> None:
     A[HOME_LEVEL] = 0.0 if A[HOME_FROM] <= x <= A[HOME_TO] else A[HOME_FORCED]
     A[FORWARD_LEVEL] = 0.0 if x > A[FORWARD_SWITCH] else A[FORWARD_FORCED]
     A[REVERSE_LEVEL] = 0.0 if x < A[REVERSE_SWITCH] else A[REVERSE_FORCED]
+    if A[LIMITS_SWAPPED] != 0.0:
+        level = A[FORWARD_LEVEL]
+        A[FORWARD_LEVEL] = A[REVERSE_LEVEL]
+        A[REVERSE_LEVEL] = level
+    if A[HOME_STUCK] != 0.0:
+        A[HOME_LEVEL] = 1.0
 
 
 def raise_event(S: State, A: State, bit: int) -> None:

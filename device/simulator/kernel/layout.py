@@ -276,8 +276,14 @@ AXIS = GUARD + GUARD_STRIDE * MAXIMUM_GUARDS
     REFERENCE_BIAS,  # 0.5: RP is the nearest count, 0: the one below
     SETTLES_AT_ONCE,  # 1: a smoothed move may end with its profile
     READ_LATE,  # 1: TP is the encoder at the end of the sample
-) = range(165)
-DELAY_RING = 165
+    # faults of the wiring
+    WIRING,  # sign with which the command reaches the motor
+    ENABLING,  # 0: the amplifier is never on, 1: as the controller says, 2: always
+    DEAD_CHANNEL,  # of the main encoder, 1: A, 2: B; 0: none
+    LIMITS_SWAPPED,
+    HOME_STUCK,
+) = range(170)
+DELAY_RING = 170
 MAXIMUM_DELAY = 32
 HISTORY = DELAY_RING + MAXIMUM_DELAY  # COUNTS of the last 256 samples, for TV
 HISTORY_LENGTH = 256

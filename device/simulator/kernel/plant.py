@@ -26,6 +26,7 @@ from device.simulator.kernel.layout import (
     DRIVE,
     DRIVE_STEPPER,
     DRIVE_VOLTAGE,
+    ENABLING,
     FRICTION_A,
     GAIN_A,
     GAIN_V,
@@ -59,6 +60,7 @@ from device.simulator.kernel.layout import (
     STEPS,
     STEPS_SHIFT,
     SUBSTEPS,
+    WIRING,
     State,
 )
 from device.simulator.kernel.servo import clamp
@@ -90,7 +92,7 @@ def rippled(S: State, A: State, volts: float) -> float:
 
 def amplifier(S: State, A: State) -> float:
     """Volts of command that reach the current loop: delayed, limited to the peak current, with ripple."""
-    volts = delayed(A, A[COMMAND])
+    volts = delayed(A, A[COMMAND]) * A[WIRING]
     if A[PHASE_MODE] != 0.0:
         volts = commutated(A, volts)
     if A[DRIVE] != DRIVE_VOLTAGE:
@@ -99,6 +101,11 @@ def amplifier(S: State, A: State) -> float:
     if A[RIPPLE] != 0.0:
         volts = rippled(S, A, volts)
     return volts
+
+
+def has_power(A: State) -> bool:
+    """The amplifier drives the motor."""
+    return A[ENABLING] == 2.0 or (A[ENABLING] == 1.0 and A[MOTOR_ON] != 0.0)
 
 
 def rub(S: State, A: State, a: float, decay: float, gain_v: float, gain_x: float) -> None:
@@ -134,7 +141,7 @@ def rub(S: State, A: State, a: float, decay: float, gain_v: float, gain_x: float
 def simple(S: State, A: State, volts: float) -> None:
     """A rigid machine: position and velocity, exact for a command held through the sample."""
     volts_outside = A[DISTURBANCE] - A[GRAVITY]
-    if A[MOTOR_ON] != 0.0:
+    if has_power(A):
         a = A[GAIN_A] * (volts + volts_outside)
         decay = A[DECAY]
         gain_v = A[GAIN_V]
@@ -222,7 +229,7 @@ def general_substep(A: State, volts: float, powered: bool, outside: float) -> No
 def general(A: State, volts: float) -> None:
     """A machine with an electrical time constant or with its load behind a coupling."""
     outside = A[DISTURBANCE] - A[GRAVITY]
-    powered = A[MOTOR_ON] != 0.0
+    powered = has_power(A)
     for _ in range(int(A[SUBSTEPS])):
         general_substep(A, volts, powered, outside)
     if A[LOAD_GAIN_A] == 0.0:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from device.simulator.kernel import layout
 from device.simulator.mechanics import exponential
 from device.simulator.motion import Motion, Register
-from device.simulator.plant import Drive, Place, Plant
+from device.simulator.plant import Drive, Enable, Place, Plant
 
 PERIOD = 1 / 1024
 SCALE = 4000 / (2 * math.pi)  # Kf of a 1000-line encoder, 638 counts/rad (l.4445)
@@ -281,6 +281,43 @@ def test_switches_follow_the_load() -> None:
     assert [x for x in levels if not levels[x][2]] == [-101]
     motion.set_home(0, False)
     assert not motion.home_level(0)
+
+
+def test_a_dead_channel_toggles_by_one_count_only() -> None:
+    """dmc-1412-1414.txt l.606: "if only one encoder channel fails, the position reporting varies by one count only"."""
+    for channel in ("a", "b"):
+        motion = Motion(1, [Plant(dead_channel=channel)])
+        motion.motor_off(0)
+        seen = []
+        for _ in range(8):
+            motion.push(0, 1)
+            motion.run(1)
+            seen.append(motion.position(0))
+        assert set(seen) == {0, 1}
+        assert sum(seen) == 4  # the other channel is high in two of four quarters
+
+
+def test_wires_that_are_wrong() -> None:
+    forwards = open_loop(Plant(), 0.1)
+    backwards = open_loop(Plant(motor_reversed=True), 0.1)
+    unpowered = open_loop(Plant(amplifier_enable=Enable.NONE), 0.1)
+    unheard = open_loop(Plant(amplifier_enable=Enable.ALWAYS), 0.1)
+    unheard.motor_off(0)
+    for motion in (forwards, backwards, unpowered, unheard):
+        motion.run(100)
+    assert forwards.position(0) > 0
+    assert [motion.position(0) for motion in (backwards, unpowered, unheard)] == [
+        -forwards.position(0), 0, forwards.position(0)
+    ]  # fmt: skip
+
+
+def test_switches_that_are_wired_wrong() -> None:
+    motion = Motion(1, [Plant(forward_limit=2000, reverse_limit=-100, limits_swapped=True, home_stuck=True)])
+    motion.push(0, 2001)
+    motion.set_home(0, False)
+    motion.motor_off(0)
+    motion.run(1)
+    assert (motion.home_level(0), motion.forward_level(0), motion.reverse_level(0)) == (True, True, False)
 
 
 def test_analog_feedback() -> None:

@@ -45,6 +45,11 @@ home_switch = [900, 1000]
 forward_limit = 100000
 reverse_limit = -100000
 index_at = 137
+motor_reversed = true
+amplifier_enable = "always"
+dead_channel = "b"
+limits_swapped = true
+home_stuck = true
 """
 
 
