@@ -23,7 +23,7 @@ from device.happenings import Badge, Kind, Notice, NoticeKind, State
 from device.identify import Identity, mismatch, who
 from device.jog import Places, Plan, Routine
 from device.lease import Ran
-from device.link import Link, Traffic
+from device.link import Link, Owner, Traffic
 from device.meeting import Events
 from device.moving import Ended, Motion, NeedsConfirmation
 from device.own import OwnSimulator
@@ -31,7 +31,7 @@ from device.poll import Poller
 from device.ring import EMPTY, Row
 from device.stop import NO_ANSWER_S, Stopping, StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
-from device.transport import LineSettings, OpenFailed, Transport, open_transport
+from device.transport import ONLY_WATCHED, LineSettings, OpenFailed, Transport, open_transport
 from device.wire import Manners, nonces
 
 if TYPE_CHECKING:
@@ -93,6 +93,7 @@ class Controller:
         own: OwnSimulator | None = None,
         known_models: Mapping[int, str] | None = None,
         manners: Manners | None = None,
+        hears: Callable[[Controller], Owner] | None = None,
         threaded: bool = True,
     ) -> None:
         self.kind, self.line, self.clock = kind, line or LineSettings(), clock
@@ -127,8 +128,10 @@ class Controller:
         self._used = clock()
         self.door.control = kind is Kind.SIMULATOR
         self.door.resting = self.resting
+        self.door.closed = ONLY_WATCHED if kind is Kind.REPLAY else ""
         self._events = Events(self)
-        self.link = Link(opener or _no_transport, self.line, self._events, self.door, clock)
+        heard = hears(self) if hears is not None else self._events
+        self.link = Link(opener or _no_transport, self.line, heard, self.door, clock)
         self.link.wire.manners = manners or self.link.wire.manners
         self.link.last_words = self.motion.last_words
         if opener is not None and threaded:
@@ -175,7 +178,7 @@ class Controller:
 
     def take_control(self) -> None:
         self.used()
-        if not self.door.control and self.kind is not Kind.OFFLINE:
+        if not self.door.control and self.kind in (Kind.MACHINE, Kind.SIMULATOR):
             self.door.control = True
             self.notify(NoticeKind.CONTROL, "Control taken.")
 
@@ -243,6 +246,10 @@ class Controller:
 
     def stop(self, then: Callable[[bool], None] = lambda still: None) -> None:
         """Stops everything, ahead of everything; pressed again while it is not proved, it aborts."""
+        if self.kind is Kind.REPLAY:
+            self.notify(NoticeKind.STOP, "There is nothing to stop: this is a recording.")
+            then(False)
+            return
         if self.link.transport is None:
             self.show_stop(StopState.NO_LINK if self.state is State.OFFLINE else StopState.NOT_CONFIRMED)
             then(False)

@@ -106,6 +106,7 @@ class Door:
     def __init__(self, unit: int | None = None) -> None:
         self._choose_unit = choose(unit) if unit is not None else b""  # ours on a daisy chain
         self.control = False
+        self.closed = ""  # why nothing at all leaves, STOP included: there is no controller behind it
         self.question = ""  # why only an answer may leave, in words
         self.resting: Callable[[], str] = lambda: ""  # why live reads rest now
         self.erasing = False  # the confirmed action that erases the memory sets it for its one send
@@ -114,6 +115,8 @@ class Door:
         self, data: bytes, *, stop: bool, answer: bool, poll: bool = False, stored: bool = False, ends: bool = False
     ) -> str:
         """Why these bytes may not leave, as one sentence, or nothing."""
+        if self.closed:
+            return self.closed
         if stop:
             return ""
         if answer:

@@ -7,6 +7,7 @@ from typing import Literal, Protocol, runtime_checkable
 
 Handshake = Literal["none", "rts", "xon", "both"]
 Parity = Literal["none", "even", "odd"]
+ONLY_WATCHED = "This is a recording: it can only be watched, nothing is sent."
 
 
 class OpenFailed(Exception):
