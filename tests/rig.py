@@ -47,10 +47,11 @@ class Rig:
         openable: bool = True,
         line: LineSettings = LINE,
         began: float = 0.0,
+        tap: Callable[[Transport], Transport] = lambda line: line,
         **more: Any,
     ) -> None:
         self.simulation = Simulation(model_named(model), baud=line.baud, compiled=False)
-        self.began, self.openable = began, openable
+        self.began, self.openable, self._tap = began, openable, tap
         if revision:
             self.simulation.unit.revision = lambda: revision  # type: ignore[method-assign]
         if program:
@@ -160,7 +161,7 @@ class Rig:
     def _open(self) -> Transport:
         if not self.openable:
             raise OpenFailed("There is no such port.")
-        return self.loopback
+        return self._tap(self.loopback)
 
     def _step(self) -> None:
         if self.controller.link.transport is None:
