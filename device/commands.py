@@ -113,12 +113,12 @@ def _with_proof(controller: Controller, command: str, limit: float, before: int)
     """The frame behind the command comes only when the command was accepted."""
     nonce = next(controller.nonces)
     statements = parse_line(command).statements
-    expected = Proof(nonce, len(statements), any(_tells(s) for s in statements))
+    expected = Proof(nonce, len(statements), any(tells(s) for s in statements))
     answer = yield Send(data_line(f"{command};{framed(nonce, ())}"), expected, limit, refusal_s=0.05)
     return (yield from _reply(controller, answer, command, limit, nonce, before))
 
 
-def _tells(statement: nodes.Statement) -> bool:
+def tells(statement: nodes.Statement) -> bool:
     """Whether a statement sends something back."""
     if isinstance(statement, nodes.Command):
         if statement.name in TELLING or any(isinstance(item, nodes.Query) for item in statement.arguments):

@@ -23,7 +23,10 @@ MAY = {
     "widgets": (
         STANDARD | {"PySide6", "pyqtgraph", "numpy", "shiboken6"},
         THREADS,
-        ("widgets", "codegen", "resources", "device.api", "device.jog", "device.live", "device.terminal1500"),
+        (
+            *("widgets", "codegen", "resources", "device.api", "device.capture", "device.curves", "device.jog"),
+            *("device.live", "device.terminal1500"),
+        ),
     ),
 }
 ONLY_IN = {
