@@ -1,0 +1,183 @@
+"""The steps that bring an axis to life, one row each, in the order of the manuals.
+
+Sources: SSC manual chapter 2, steps 5-8 (ssc-tol-o-motion.txt l.807-931) and dmc-1412-1414.txt l.560-804, 832-891.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+MOST = 2000  # counts: nothing moves further in any step, whatever is wrong
+HELP = "Bring an axis to life"  # the help page
+TROUBLE = "Troubleshooting"  # the tables of chapter 9
+
+
+class Drives(StrEnum):
+    """Which motors a step is for."""
+
+    ANY = "any"
+    SERVO = "servo"
+    SINE = "sine"  # a servo whose phases the controller commutates (DMC-1412)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What to do in words, what is read, how it is judged, and where the manuals say so."""
+
+    key: str
+    title: str
+    todo: tuple[str, ...]
+    read: str
+    judged: str
+    source: str
+    drives: Drives = Drives.ANY
+    moves: bool = False
+    optional: bool = False
+    needs: tuple[str, ...] = ()  # steps that come first
+
+
+STEPS: tuple[Step, ...] = (
+    Step(
+        "safety",
+        "Emergency stop and enable",
+        (
+            "Test the machine's emergency stop: it must take the power from the drive without controller and computer.",
+            "Press “Motor off” and look at the drive: it must show that it is disabled, and the shaft must turn "
+            "freely. A vertical axis may fall: support it first.",
+        ),
+        "whether the controller has the motor on",
+        "by what you see at the drive; without a working enable signal no error limit can protect the axis",
+        "dmc-1412-1414.txt l.581-585; SSC manual l.849-851",
+    ),
+    Step(
+        "encoder",
+        "Encoder by hand",
+        (
+            "The motor is off. Press “Begin”, then move the axis by hand, forward, by a distance that you can measure.",
+            "Type that distance and press “Judge”.",
+        ),
+        "the position in counts, its lowest and highest value, and how often it changed",
+        "direction, counts in a unit against the setup; a reading that changes by one count only has a dead channel",
+        "dmc-1412-1414.txt l.599-607; SSC manual l.863-874",
+        needs=("safety",),
+    ),
+    Step(
+        "switches",
+        "Limit and home switches",
+        (
+            "Choose what each kind of switch does when it is tripped, and press “Begin”.",
+            "Trip each switch by hand when it is asked for, and let it go. Say so where nothing changes, or where none "
+            "is fitted.",
+        ),
+        "the forward limit, reverse limit and home inputs",
+        "the asked one changes, no other does, and it is not active at rest",
+        "dmc-1412-1414.txt l.2323-2346, 4111-4113; SSC manual l.1289, 1353",
+        optional=True,
+        needs=("safety",),
+    ),
+    Step(
+        "guards",
+        "Error and torque limits",
+        (
+            "Type the largest following error and the largest motor command for the first moves, and press “Set”.",
+            "The motor goes off; off-on-error (OE 1) is set with them.",
+        ),
+        "OE, ER and TL as the controller holds them afterwards",
+        "read back equal; the manuals' example is ER 2000, OE 1 and TL 1",
+        "dmc-1412-1414.txt l.631-657; SSC manual l.885-912",
+        Drives.SERVO,
+        needs=("encoder",),
+    ),
+    Step(
+        "phases",
+        "Sine: phases and halls",
+        (
+            "Only where the controller commutates the motor: type the counts of one magnetic cycle and where the hall "
+            "sensors are, then press “Test phases”. The motor turns one cycle there and back.",
+            "Put right what the answer says, and test again.",
+        ),
+        "the controller's own answer to BS",
+        "phases and halls in order, and BM close to what was typed",
+        "dmc-1412-1414.txt l.703-745",
+        Drives.SINE,
+        moves=True,
+        optional=True,
+        needs=("guards", "switches"),
+    ),
+    Step(
+        "zero",
+        "Sine: commutation zero",
+        (
+            "Type the hall sensors' offset and the voltage, then press “Drive to zero”. The motor jerks by up to half "
+            "a magnetic cycle and goes off.",
+        ),
+        "the answer to BZ, and the counts to phase zero",
+        "the controller reports no error 112, 113 or 114",
+        "dmc-1412-1414.txt l.755-804",
+        Drives.SINE,
+        moves=True,
+        optional=True,
+        needs=("phases",),
+    ),
+    Step(
+        "polarity",
+        "Polarity of the loop",
+        (
+            "Keep away from the axis, with a hand at the emergency stop. Press “Test move”: the motor is switched on, "
+            "moves a few hundred counts and goes off.",
+            "Then say whether it went the way that you call forward.",
+        ),
+        "commanded and actual position during the move, stop code, motor command",
+        "it comes to its target; what runs the other way has the wrong polarity",
+        "dmc-1412-1414.txt l.659-687; SSC manual l.914-927",
+        Drives.SERVO,
+        moves=True,
+        needs=("safety", "encoder", "switches", "guards"),
+    ),
+    Step(
+        "scale",
+        "Scale",
+        (
+            "Set a dial gauge or a mark. Type a small distance and press “Move”.",
+            "Type what you measured, and press “Judge”.",
+        ),
+        "how far the axis came, in counts",
+        "the measured way is the commanded one within 2 %",
+        "dmc-1412-1414.txt l.671-687; SSC manual l.916",
+        moves=True,
+        optional=True,
+        needs=("polarity",),
+    ),
+    Step(
+        "limits",
+        "Software limits",
+        (
+            "Type the forward and the reverse limit of the travel, inside the limit switches, and the torque limit for "
+            "normal operation.",
+            "Press “Set”: the motor goes off, FL, BL and TL are sent and read back.",
+        ),
+        "FL, BL and TL as the controller holds them afterwards",
+        "read back equal, the axis between them",
+        "dmc-1412-1414.txt l.657, 4135-4146; SSC manual l.912",
+        optional=True,
+        needs=("scale",),
+    ),
+    Step(
+        "burn",
+        "Burn",
+        ("Read what will be burned and press “Burn…”. It is the last step: without it all is lost at power-down.",),
+        "the controller's answer to BN",
+        "accepted, with the motor off",
+        "dmc-1412-1414.txt l.747-753, 832; commands.md, BN",
+        optional=True,
+        needs=("limits",),
+    ),
+)
+BY_KEY = {step.key: step for step in STEPS}
+
+
+def steps_for(stepper: bool, sine: bool) -> tuple[Step, ...]:
+    """The steps of an axis: a stepper has no loop, and few servos are commutated by the controller."""
+    kinds = {Drives.ANY} | (set() if stepper else {Drives.SERVO}) | ({Drives.SINE} if sine and not stepper else set())
+    return tuple(step for step in STEPS if step.drives in kinds)

@@ -1,0 +1,196 @@
+"""Bounded moves against machines that are wired wrong: each fault is recognised, and nothing runs far.
+
+How far it went is told by the simulated motor itself, not by the encoder (dmc-1412-1414.txt l.606, 659-687).
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from codegen.twoletter.fixed import ONE, scaled
+from device.api import Job, Kind, LinkError, NotAllowed
+from device.commissioning import moves
+from device.commissioning.judge import Moved, judge_phases, judge_polarity, judge_zero
+from device.commissioning.moves import Phases, Trial
+from device.commissioning.record import Verdict
+from device.simulator.plant import Drive, Enable
+from device.tasks import Priority
+from device.tuning.guards import left_behind
+from tests.device.commissioning.machine import NOW, Machine, bearing
+
+MOST = 2000  # counts, whatever is wrong
+FACTORY = (0.0, 16384.0, 9.9982, 2147483647.0, -2147483648.0, 25000.0, 256000.0, 256000.0, 1.0)
+FAULTS: dict[str, tuple[dict[str, Any], str]] = {
+    "reversed": ({"motor_reversed": True}, "Wrong polarity"),
+    "reversed, light": ({"motor_reversed": True, "inertia": 2e-5}, "Wrong polarity"),
+    "reversed, velocity drive": ({"motor_reversed": True, "drive": Drive.VELOCITY}, "Wrong polarity"),
+    "reversed, voltage drive": ({"motor_reversed": True, "drive": Drive.VOLTAGE}, "Wrong polarity"),
+    "reversed, enable not heard": ({"motor_reversed": True, "amplifier_enable": Enable.ALWAYS}, "Wrong polarity"),
+    "channel A dead": ({"dead_channel": "a"}, "toggled by one count"),
+    "channel B dead": ({"dead_channel": "b"}, "toggled by one count"),
+    "not enabled": ({"amplifier_enable": Enable.NONE}, "did not move"),
+    "much friction": ({"coulomb_friction": 0.12}, "did not move"),
+    "at its end": ({"forward_limit": 100.0}, "forward limit stopped it"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_is_recognised_and_nothing_runs_far(fault: str, tmp_path: Path) -> None:
+    plant, words = FAULTS[fault]
+    machine = Machine(plant=bearing(**plant))
+    finding = judge_polarity(machine.try_move(tmp_path))
+    assert finding.verdict is Verdict.FAILED
+    assert words in finding.sentence
+    assert finding.advice
+    assert machine.furthest < MOST
+    assert machine.registers() == FACTORY
+    assert not left_behind(tmp_path)
+    assert not machine.simulation.state()["axes"]["X"]["motor_on"]
+
+
+@pytest.mark.parametrize(("model", "baud"), [("ssc2", 9600), ("dmc1412", 19200)])
+def test_a_healthy_axis_comes_to_its_target(model: str, baud: int, tmp_path: Path) -> None:
+    machine = Machine(model, baud=baud)
+    moved = machine.try_move(tmp_path)
+    assert judge_polarity(moved).verdict is Verdict.PASSED
+    assert moved.way == pytest.approx(300, abs=30)
+    assert 270 < machine.furthest < 400
+    assert machine.registers() == FACTORY
+
+
+def test_everything_is_on_disk_before_it_is_changed(tmp_path: Path) -> None:
+    machine = Machine()
+    machine.ask("TL 2.5;ER 900;OE 1")
+    job: Job[Moved] = Job()
+    future = machine.controller.run(
+        moves.move(machine.controller, Trial("X", 300), tmp_path, NOW, job), Priority.USER, "user"
+    )
+    machine.run_until(lambda: bool(left_behind(tmp_path)))
+    held = machine.simulation.unit.state.registers
+    assert (held["ER"][0], held["OE"][0], held["SP"][0]) == (900 * ONE, ONE, 25000 * ONE)  # not changed yet
+    former = left_behind(tmp_path)[0]
+    assert (former.values["ER"], former.values["OE"], former.values["SP"]) == (900 * ONE, ONE, 25000 * ONE)
+    machine.result(future)
+    assert not left_behind(tmp_path)
+    assert machine.registers()[:2] == (1.0, 900.0)
+
+
+@pytest.mark.parametrize("how", ["stop", "cancel", "watch"])
+def test_what_ends_a_move_puts_everything_back(how: str, tmp_path: Path) -> None:
+    machine = Machine(kind=Kind.MACHINE)
+    controller = machine.controller
+    controller.take_control()
+    job: Job[Moved] = Job()
+    machine.rest()
+    future = controller.run(moves.move(controller, Trial("X", 1500), tmp_path, NOW, job), Priority.USER, "user")
+    machine.run_until(lambda: machine.furthest > 50)
+    {"stop": controller.stop, "cancel": job.cancel, "watch": controller.release_control}[how]()
+    machine.run_until(future.done)
+    assert isinstance(future.exception(), LinkError)
+    machine.run(1.0)
+    assert machine.furthest < MOST
+    assert not machine.simulation.state()["axes"]["X"]["motor_on"]
+    if how == "watch":  # nothing more may be sent; it is offered later
+        controller.take_control()
+        machine.carry_out(moves.putting_back_of(controller, left_behind(tmp_path)[0]))
+    assert machine.registers() == FACTORY
+    assert not left_behind(tmp_path)
+
+
+def test_a_cut_cable_leaves_the_guards_and_the_file(tmp_path: Path) -> None:
+    """The controller ends the move by itself; the former values are offered when it answers again."""
+    machine = Machine()
+    machine.rest()
+    controller = machine.controller
+    future = controller.run(moves.move(controller, Trial("X", 1500), tmp_path, NOW, Job()), Priority.USER, "user")
+    machine.run_until(lambda: machine.furthest > 50)
+    machine.loopback.unplugged = True
+    machine.run_until(future.done)
+    machine.run(3.0)
+    assert machine.furthest < MOST
+    machine.loopback.unplugged = False
+    machine.ready()
+    assert machine.registers() != FACTORY
+    sentence = machine.carry_out(moves.putting_back_of(controller, left_behind(tmp_path)[0]))
+    assert "motor is off" in sentence
+    assert machine.registers() == FACTORY
+    assert not left_behind(tmp_path)
+
+
+def test_what_may_not_begin(tmp_path: Path) -> None:
+    machine = Machine(kind=Kind.MACHINE)
+    with pytest.raises(NotAllowed, match="Watch"):
+        machine.try_move(tmp_path)
+    machine.controller.take_control()
+    with pytest.raises(NotAllowed, match="no step moves an axis by more than"):
+        machine.try_move(tmp_path, Trial("X", 1900))
+    machine.simulation.load_program("#A\nJP #A\nEN")
+    machine.simulation.execute(0)
+    with pytest.raises(NotAllowed, match="program is running"):
+        machine.try_move(tmp_path)
+    assert machine.furthest == 0
+    assert not left_behind(tmp_path)
+
+
+def test_limits_are_set_read_back_and_the_motor_is_off(tmp_path: Path) -> None:
+    machine = Machine()
+    machine.ask("SH")
+    wanted = {"OE": ONE, "ER": 2000 * ONE, "TL": scaled(Fraction(1))}
+    former, there = machine.carry_out(moves.set_values(machine.controller, "X", wanted, tmp_path, NOW))
+    assert (there["OE"], there["ER"]) == (ONE, 2000 * ONE)
+    assert there["TL"] / ONE == pytest.approx(1, abs=3e-4)  # the converter's step
+    assert former["ER"] == 16384 * ONE
+    assert machine.registers()[:3] == (1.0, 2000.0, pytest.approx(1, abs=3e-4))
+    assert not machine.simulation.state()["axes"]["X"]["motor_on"]
+    assert machine.carry_out(moves.set_switches(machine.controller, "X", 1, -1))
+    assert tuple(machine.simulation.unit.state.switches[:2]) == (1, -1)
+    assert machine.carry_out(moves.burn(machine.controller, "X")).accepted
+
+
+CYCLE = Fraction("1333.333")  # dmc-1412-1414.txt l.727: 4000 counts, three pole pairs
+
+
+@pytest.mark.parametrize(
+    ("plant", "cycle", "words"),
+    [
+        ({"hall_inputs": 5, "hall_offset": 30.0}, CYCLE, ""),
+        ({"phases_swapped": True}, CYCLE, "exchange phases A and B"),
+        ({"hall_inputs": 5, "hall_order": "213"}, CYCLE, "exchange inputs"),
+        ({"amplifier_enable": Enable.NONE}, CYCLE, "did not move"),
+        ({"magnetic_cycle": 1000.0}, CYCLE, "not 1333.333"),
+    ],
+)
+def test_sine_commutation(plant: dict[str, Any], cycle: Fraction, words: str, tmp_path: Path) -> None:
+    machine = Machine("dmc1412", bearing(**plant))
+    machine.rest()
+    phases = Phases("X", cycle, 5 if "hall_inputs" in plant else 0, Fraction(2))
+    finding = judge_phases(machine.carry_out(moves.try_phases(machine.controller, phases)), "1333.333")
+    assert finding.verdict is (Verdict.FAILED if words else Verdict.PASSED)
+    assert words in finding.sentence
+    assert machine.furthest < MOST
+    assert not machine.simulation.state()["axes"]["X"]["motor_on"]
+    if words:
+        return
+    told = re.search(r"BB is about (\d+)", finding.sentence)
+    assert told is not None and abs(int(told[1]) - 30) <= 3  # steps of five degrees
+    reply, counts = machine.carry_out(moves.drive_to_zero(machine.controller, "X", Fraction(2), 30))
+    assert judge_zero(reply.accepted, reply.code, counts).verdict is Verdict.PASSED
+    assert abs(machine.simulation.motion.commutation.phase_error(0)) < 2
+    assert judge_polarity(machine.try_move(tmp_path)).verdict is Verdict.PASSED
+
+
+def test_a_motor_without_power_has_no_commutation_zero() -> None:
+    machine = Machine("dmc1412", bearing(amplifier_enable=Enable.NONE))
+    phases = Phases("X", Fraction(1900 + 1), 0, Fraction(2))
+    with pytest.raises(NotAllowed, match="more than 2000 counts"):
+        machine.carry_out(moves.try_phases(machine.controller, phases))
+    machine.ask("BA X")
+    reply, counts = machine.carry_out(moves.drive_to_zero(machine.controller, "X", Fraction(2), 0))
+    finding = judge_zero(reply.accepted, reply.code, counts)
+    assert finding.verdict is Verdict.FAILED
+    assert "error 113" in finding.sentence
