@@ -1,0 +1,81 @@
+"""A small excitation: the commanded position jumps within a stated travel while error and torque are captured."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+
+from device.tuning.loop import VOLTS, Gains
+
+EXPONENT = 1  # RC 1: every second sample; the samples between follow from the filter (see `recording`)
+STANDING = 0.02  # s of rest before the first jump
+LAST = 0.15  # s left for the answer to the last one
+SMALLEST = 4  # counts; smaller jumps drown in the counting
+LEAST_KD = 1.0  # below, the torque does not tell the error between two elements
+PEAK_PART = 0.7  # of the torque limit
+CHANNELS = ("TE", "TT", "TP")
+
+
+@dataclass(frozen=True)
+class Step:
+    """One jump of the commanded position."""
+
+    at: float  # s after RC
+    counts: int
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """What to send (IP in a jog at speed 0) and what to capture."""
+
+    steps: tuple[Step, ...]
+    exponent: int  # of RC
+    elements: int  # of each array
+    channels: tuple[str, ...]
+    travel: int  # counts that the commanded position leaves its place, at most
+    peak_volts: float  # of the first sample behind the largest jump, if the plant does not move
+    seconds: float
+
+
+@dataclass(frozen=True)
+class NotIdentified:
+    """Why there is no estimate, in a sentence."""
+
+    reason: str
+
+
+def kick(gains: Gains) -> float:
+    """Volts that one count of error makes in the sample in which it appears."""
+    return VOLTS * (4.0 * gains.kp + 4.0 * gains.kd)
+
+
+def excitation(
+    gains: Gains,
+    travel: int,
+    elements: int,
+    channels: int,
+    period: float,
+    seed: int = 0,
+    spacing: float = 0.03,
+) -> Excitation | NotIdentified:
+    """Jumps between three places, at times that repeat in no rhythm; the torque stays well below its limit."""
+    if gains.kd < LEAST_KD:
+        return NotIdentified(f"KD is {gains.kd:g}: the excitation needs KD {LEAST_KD:g} or more. Set KD and try again.")
+    size = min(travel // 2, math.floor(PEAK_PART * gains.torque_limit / kick(gains) / 2.0))
+    if size < SMALLEST:
+        why = (
+            f"the travel of {travel} counts"
+            if travel // 2 < SMALLEST
+            else f"KD {gains.kd:g} at TL {gains.torque_limit:g} V"
+        )
+        return NotIdentified(f"{why} leaves jumps of {max(0, size)} counts, {SMALLEST} are the least.".capitalize())
+    seconds = elements * 2**EXPONENT * period
+    chance = random.Random(seed)
+    steps: list[Step] = []
+    at, place = STANDING, 0
+    while at < seconds - LAST:
+        place, before = chance.choice([other for other in (-1, 0, 1) if other != place]), place
+        steps.append(Step(round(at, 4), (place - before) * size))
+        at += spacing * chance.choice((1.0, 1.6, 2.3, 4.0))
+    return Excitation(tuple(steps), EXPONENT, elements, CHANNELS[:channels], size, 2.0 * size * kick(gains), seconds)

@@ -1,0 +1,270 @@
+"""What an axis is, told from a small excitation: inertia, friction, weight, delay and the first resonance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy
+
+from device.tuning.excite import NotIdentified
+from device.tuning.fit import Fit, Values, Windows, refine, solve, windows
+from device.tuning.plant import AxisPlant, Resonance
+from device.tuning.recording import Recording, Samples, every_sample
+
+LATEST = 10  # samples of delay at most
+TRIED = (0, 1, 2, 3, 5)  # delays from which the search begins
+COUNTING = math.sqrt(1.0 / 12.0)  # counts; what reading in whole counts alone leaves
+BETTER = 1.03  # how much smaller the residual must be for a model with Coulomb friction
+SEEN = 40.0  # logarithm of the likelihood (twice) from which a resonance is believed
+SHOWS = 1.015  # and how much smaller it must leave the residual
+EXPECTED = 1.02  # residual over that of counting alone, below which there is nothing left to explain
+FEWEST = 200  # samples of motion
+HARDLY = 6.0  # counts of motion
+LOW_HZ, HIGH_HZ, SCANNED = 20.0, 420.0, 26
+SURE_GAIN = 0.15  # one sigma, as a part, above which a gain is not told
+POLE_UNIT = 10.0  # rad/s; what the search counts in
+Work = Generator[float, None, "Estimate | NotIdentified"]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """The axis as the excitation showed it."""
+
+    plant: AxisPlant
+    sigma: dict[str, float]  # one standard deviation of gain, pole, coulomb, gravity, delay and, where seen, frequency
+    fit: float  # part of the motion's variance that is explained
+    left: float  # counts, standard deviation of what is not explained; 0.29 is counting alone
+    notes: tuple[str, ...]  # what could not be told, and why
+
+
+@dataclass(frozen=True)
+class Found:
+    """One kind of model at its best."""
+
+    data: Windows
+    rubbing: bool
+    shape: Callable[[Values], AxisPlant]
+    values: Values
+    fit: Fit
+    curvature: Values
+
+    @property
+    def left(self) -> float:
+        """Standard deviation of the residual, counts."""
+        return math.sqrt(self.fit.cost / max(1, self.data.samples))
+
+
+def rigid(values: Values, period: float) -> AxisPlant:
+    """Pole and delay."""
+    return AxisPlant(gain=1.0, pole=float(values[0]) * POLE_UNIT, delay=float(values[1]) * period)
+
+
+def springy(values: Values, period: float, on_load: bool) -> AxisPlant:
+    """Pole, delay, and logarithms of frequency, damping and (encoder on the motor) ratio of inertias."""
+    hertz, damping = math.exp(values[2]), math.exp(values[3])
+    # an encoder on the load does not tell how the inertia is divided
+    ratio = 1.0 if on_load else math.exp(values[4])
+    return replace(rigid(values, period), resonance=Resonance(hertz, damping, ratio, on_load))
+
+
+def bounds(places: int) -> tuple[Values, Values]:
+    """The search stays within these."""
+    low = [-1.0, 0.0, math.log(15.0), math.log(0.002), math.log(0.02)]
+    high = [400.0, LATEST - 0.001, math.log(480.0), math.log(0.7), math.log(20.0)]
+    return numpy.array(low[:places]), numpy.array(high[:places])
+
+
+def best_rigid(data: Windows, rubbing: bool) -> Generator[float, None, Found]:
+    """The best machine without a spring."""
+
+    def shape(values: Values) -> AxisPlant:
+        return rigid(values, data.period)
+
+    found: list[Found] = []
+    for late in TRIED:
+        values, fit, curvature = refine(data, numpy.array([0.1, float(late)]), shape, rubbing, *bounds(2))
+        found.append(Found(data, rubbing, shape, values, fit, curvature))
+        yield 0.0
+    return min(found, key=lambda one: one.fit.cost)
+
+
+def best_springy(base: Found, on_load: bool) -> Generator[float, None, Found]:
+    """The best machine with a spring, its encoder on one side of it."""
+    data, rubbing = base.data, base.rubbing
+
+    def shape(values: Values) -> AxisPlant:
+        return springy(values, data.period, on_load)
+
+    places = 4 if on_load else 5
+    delays = sorted({float(late) for late in TRIED[:4]} | {float(base.values[1])})
+    starts: list[tuple[float, Values]] = []
+    for hertz in numpy.geomspace(LOW_HZ, HIGH_HZ, SCANNED):
+        for late in delays:
+            for ratio in (1.0,) if on_load else (0.3, 1.5):
+                values = numpy.array([base.values[0], late, math.log(hertz), math.log(0.04), math.log(ratio)])[:places]
+                starts.append((solve(data, shape(values), rubbing).cost, values))
+        yield 0.0
+    starts.sort(key=lambda one: one[0])
+    values, fit, curvature = refine(data, starts[0][1], shape, rubbing, *bounds(places))
+    return Found(data, rubbing, shape, values, fit, curvature)
+
+
+def believable(found: Found, base: Found) -> bool:
+    """Whether the spring explains so much more that it is no chance."""
+    seen, spread = found.fit.plant.resonance, deviations(found)
+    if seen is None or found.fit.cost <= 0.0 or found.fit.plant.gain <= 0.0:
+        return False
+    likelier = found.data.samples * math.log(base.fit.cost / found.fit.cost)
+    sure = spread[2] < 0.1 and seen.damping < 0.5 and (len(spread) < 5 or spread[4] < 0.4)
+    return sure and likelier > SEEN and base.left > SHOWS * found.left
+
+
+def deviations(found: Found) -> Values:
+    """One sigma of the values that were searched."""
+    covariance = numpy.linalg.pinv(found.curvature) * found.left**2
+    result: Values = numpy.sqrt(numpy.maximum(0.0, numpy.diag(covariance)))
+    return result
+
+
+def sigmas(found: Found) -> dict[str, float]:
+    """One sigma of every number of the plant: its own, and what the searched values pass on."""
+    plant, spread = found.fit.plant, deviations(found)
+    variances = [value**2 for value in found.fit.spread] + [0.0]
+    for n, width in enumerate(spread):
+        near = found.values.copy()
+        near[n] += 1e-3
+        other = solve(found.data, found.shape(near), found.rubbing).plant
+        for place, change in enumerate(
+            (
+                other.gain - plant.gain,
+                other.gravity * other.gain - plant.gravity * plant.gain,
+                other.coulomb * other.gain - plant.coulomb * plant.gain,
+            )
+        ):
+            if place < len(variances):
+                variances[place] += (change / 1e-3 * width) ** 2
+    gain = abs(plant.gain) or 1.0
+    result = {
+        "gain": math.sqrt(variances[0]),
+        "pole": float(spread[0]) * POLE_UNIT,
+        "gravity": math.sqrt(variances[1]) / gain,
+        "coulomb": math.sqrt(variances[2]) / gain,
+        "delay": float(spread[1]) * found.data.period,
+    }
+    if plant.resonance is not None:
+        result["frequency"] = float(spread[2]) * plant.resonance.frequency
+        result["damping"] = float(spread[3]) * plant.resonance.damping
+        if len(spread) > 4:
+            result["ratio"] = float(spread[4]) * plant.resonance.ratio
+    return result
+
+
+def explained(found: Found) -> float:
+    """Part of the motion's variance, window by window."""
+    weight, counts = found.data.weight, found.data.counts
+    mean = (weight * counts).sum(axis=1, keepdims=True) / weight.sum(axis=1, keepdims=True)
+    whole = float((weight * (counts - mean) ** 2).sum())
+    return max(0.0, 1.0 - found.fit.cost / whole) if whole > 0.0 else 0.0
+
+
+def notes(found: Found, estimate_sigma: dict[str, float], without_friction: bool) -> tuple[str, ...]:
+    """What could not be told, and why."""
+    plant, said = found.fit.plant, []
+    if plant.resonance is None:
+        said.append(
+            f"No resonance was seen from {LOW_HZ:.0f} to {HIGH_HZ:.0f} Hz; one that moves the encoder by less than "
+            f"about {max(found.left, COUNTING):.1f} counts does not show. Larger jumps show more."
+        )
+    elif plant.resonance.on_load:
+        said.append("The encoder sits behind the spring, so it does not tell how the inertia is divided.")
+    if without_friction:
+        said.append("Coulomb friction is too small to be told from the counting of the encoder.")
+    if estimate_sigma["pole"] > max(1.0, 0.5 * abs(plant.pole)):
+        said.append("Viscous friction could not be told: the excitation is too short for it.")
+    if plant.velocity_mode:
+        said.append("The drive closes a velocity loop of its own: inertia shows only as its lag.")
+    if found.left > 3.0 * COUNTING:
+        said.append(
+            f"{found.left:.1f} counts of the motion remain unexplained: play, cogging or a second resonance are not "
+            "in the model. Leave a larger margin."
+        )
+    return tuple(said)
+
+
+def too_weak(found: Found, sigma: dict[str, float], moved: float) -> str | None:
+    """Why an estimate must not be used."""
+    gain = found.fit.plant.gain
+    if moved < HARDLY or found.data.samples < FEWEST:
+        return (
+            f"The axis moved {moved:.0f} counts, for too short a time: friction holds it, or the gains are too low. "
+            "Allow more travel, or raise KP and KD."
+        )
+    if gain <= 0.0:
+        return "The axis moves against the motor command: check the polarity of motor and encoder."
+    if sigma["gain"] > SURE_GAIN * gain:
+        return "The answer is too small to tell the inertia: allow more travel, or raise KP and KD."
+    return None
+
+
+def identifying(recordings: Sequence[Recording]) -> Work:
+    """`identify` in pieces of some 30 ms, for who must not wait; yields the part that is done."""
+    samples: list[Samples] = []
+    for recording in recordings:
+        every = every_sample(recording)
+        if isinstance(every, NotIdentified):
+            return every
+        samples.append(every)
+        yield 0.05
+    moved = max((float(numpy.ptp(one.counts)) for one in samples), default=0.0)
+    candidates: list[Found] = []
+    for rubbing in (False, True):
+        data = windows(samples, rubbing, LATEST)
+        if data is None or data.samples < FEWEST:
+            continue
+        base = yield from best_rigid(data, rubbing)
+        yield 0.2 + 0.4 * rubbing
+        springs = []
+        for on_load in (False, True) if base.left > EXPECTED * COUNTING else ():
+            springs.append((yield from best_springy(base, on_load)))
+            yield 0.3 + 0.4 * rubbing + 0.1 * on_load
+        good = [one for one in springs if believable(one, base)]
+        candidates.append(min(good, key=lambda one: one.fit.cost) if good else base)
+        if candidates[-1].left <= EXPECTED * COUNTING:
+            break
+    if not candidates:
+        return NotIdentified(
+            f"The axis moved {moved:.0f} counts, for too short a time. Allow more travel, or raise KP and KD."
+        )
+    return concluded(candidates, moved)
+
+
+def concluded(candidates: list[Found], moved: float) -> Estimate | NotIdentified:
+    """The simpler of the models, unless friction is plainly there."""
+    best, without = candidates[0], True
+    if best.rubbing:
+        without = False
+    elif len(candidates) > 1:
+        rubbing = candidates[1]
+        sure = rubbing.fit.plant.coulomb > 3.0 * sigmas(rubbing)["coulomb"]
+        if sure and best.left > BETTER * rubbing.left:
+            best, without = rubbing, False
+    sigma = sigmas(best)
+    weak = too_weak(best, sigma, moved)
+    if weak:
+        return NotIdentified(weak)
+    plant = best.fit.plant
+    plant = replace(plant, pole=max(0.0, plant.pole))
+    return Estimate(plant, sigma, explained(best), best.left, notes(best, sigma, without))
+
+
+def identify(recordings: Sequence[Recording]) -> Estimate | NotIdentified:
+    """The plant behind captured excitations; takes about two seconds of one processor."""
+    work = identifying(recordings)
+    while True:
+        try:
+            next(work)
+        except StopIteration as done:
+            result: Estimate | NotIdentified = done.value
+            return result

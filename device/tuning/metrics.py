@@ -1,0 +1,79 @@
+"""What a step response says about the gains."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy
+
+from device.tuning.plant import Vector
+
+BAND = 0.02  # of the step, on both sides of its end
+LAST = 0.1  # of the response over which the steady error is averaged
+AT_LIMIT = 0.001  # V
+
+
+@dataclass(frozen=True)
+class Response:
+    """Commanded and actual position and motor command, evenly sampled."""
+
+    period: float  # s between two elements
+    commanded: Vector  # counts
+    actual: Vector  # counts
+    volts: Vector
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """Times in s from the step, positions in counts."""
+
+    step: float  # where the commanded position ends less where it began
+    rise_time: float | None  # from 10 % to 90 % of the step; None: never that far
+    overshoot: float  # part of the step by which the actual position passes its end
+    settling_time: float | None  # until it stays within 2 % of the step (1 count at least); None: it does not stay
+    steady_error: float  # commanded less actual, mean of the last tenth
+    peak_error: float  # the largest |commanded - actual|
+    saturated: float  # part of the time in which the motor command is at its limit
+
+
+def passage(position: Vector, level: float) -> float | None:
+    """Where the position first comes to a level, in elements with a fraction."""
+    above = numpy.flatnonzero(position >= level)
+    if not len(above):
+        return None
+    place = int(above[0])
+    if place == 0:
+        return 0.0
+    before, after = float(position[place - 1]), float(position[place])
+    return place - 1 + (level - before) / (after - before)
+
+
+def measure(response: Response, torque_limit: float) -> Metrics | str:
+    """The numbers of a step response; a sentence where there is no step in it."""
+    commanded, actual = response.commanded, response.actual
+    step = float(commanded[-1] - commanded[0]) if len(commanded) else 0.0
+    if step == 0.0:
+        return "There is no step in this response: the commanded position ends where it began."
+    begin = int(numpy.flatnonzero(numpy.diff(commanded))[0])  # the last element before it moves
+    gone = (actual[begin:] - actual[begin]) / step  # 0 at the start, 1 at the end
+    low, high = passage(gone, 0.1), passage(gone, 0.9)
+    error = commanded[begin:] - actual[begin:]
+    outside = numpy.flatnonzero(numpy.abs(commanded[-1] - actual[begin:]) > max(1.0, BAND * abs(step)))
+    settled = int(outside[-1]) + 1 if len(outside) else 0
+    tail = max(1, int(LAST * len(error)))
+    return Metrics(
+        step=step,
+        rise_time=None if low is None or high is None else (high - low) * response.period,
+        overshoot=max(
+            0.0,
+            float(
+                (actual[begin:] - commanded[-1]).max() / step
+                if step > 0
+                else (commanded[-1] - actual[begin:]).max() / -step
+            ),
+        ),
+        settling_time=None if settled >= len(error) else settled * response.period,
+        steady_error=float(error[-tail:].mean()),
+        peak_error=float(numpy.abs(error).max()),
+        saturated=float((numpy.abs(response.volts[begin:]) >= torque_limit - AT_LIMIT).mean()),
+    )
