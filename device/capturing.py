@@ -67,10 +67,19 @@ def capture(
 
 
 def capture_steps(
-    c: Controller, plan: Plan, job: CaptureJob, setup: Setup | None = None, note: str = ""
+    c: Controller,
+    plan: Plan,
+    job: CaptureJob,
+    setup: Setup | None = None,
+    note: str = "",
+    during: Callable[[], Steps[None]] | None = None,
 ) -> Steps[Capture]:
-    """As `capture`, as part of a longer task."""
+    """As `capture`, as part of a longer task; `during` runs right after the recording has begun, before any reading.
+
+    The arrays are given back whatever is thrown into it, except where the line is lost.
+    """
     recording = Recording(c, plan, job, setup, note)
+    recording.during = during
     try:
         done = yield from recording.steps()
     except LinkLost:
@@ -89,6 +98,7 @@ class Recording:
         self._c, self._plan, self._job, self._setup, self._note = c, plan, job, setup, note
         self._talk = Talk(c)
         self.room = Room(c, plan, self._talk)
+        self.during: Callable[[], Steps[None]] | None = None
         self._start = 0.0
         self._quick = True
         self._element_s = ELEMENT_BYTES * c.line.byte_s
@@ -98,6 +108,7 @@ class Recording:
         self._when = ""
         self._judged, self._sends = "", False  # a listing, and whether it sends text
         self._ended = False  # by us, before its time
+        self.during: Callable[[], Steps[None]] | None = None
 
     # ------------------------------------------------------------------ the whole
 
@@ -113,8 +124,13 @@ class Recording:
         line = f"RC {plan.exponent},{-plan.count if ring else plan.count}" + (f";{plan.go}" if plan.go else "")
         if len(line) + 1 + FRAME_COLUMNS > model.columns:
             raise NotAllowed(f"{NOT}: “{plan.go}” is too long to start with the recording.")
+        self.room.began = True
         yield from self._talk.must(line)
-        self._start, self.room.began = c.clock(), True
+        self._start = c.clock()
+        if self.during is not None:
+            yield from self.during()
+        if self.during is not None:
+            yield from self.during()
         yield from self._ring(model) if ring else self._line()
         if not self._read:
             raise LinkError("Capture cancelled before anything was read.")

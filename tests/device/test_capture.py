@@ -246,7 +246,7 @@ def test_a_refused_go_leaves_nothing_behind() -> None:
     rig = Rig(model="ssc2").ready()
     rig.type("MO")
     with pytest.raises(Refused, match="BG X"):
-        captured(rig, Plan((POSITION,), 1, 50, go=MOVE))
+        captured(rig, Plan((POSITION,), 8, 50, go=MOVE))
     assert rig.simulation.state()["arrays"] == {}
     assert rig.result(rig.controller.read("_RC")) == (0.0,)
 
