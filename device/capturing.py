@@ -98,7 +98,6 @@ class Recording:
         self._c, self._plan, self._job, self._setup, self._note = c, plan, job, setup, note
         self._talk = Talk(c)
         self.room = Room(c, plan, self._talk)
-        self.during: Callable[[], Steps[None]] | None = None
         self._start = 0.0
         self._quick = True
         self._element_s = ELEMENT_BYTES * c.line.byte_s
@@ -127,8 +126,6 @@ class Recording:
         self.room.began = True
         yield from self._talk.must(line)
         self._start = c.clock()
-        if self.during is not None:
-            yield from self.during()
         if self.during is not None:
             yield from self.during()
         yield from self._ring(model) if ring else self._line()
