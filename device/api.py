@@ -103,7 +103,7 @@ class Controller:
         self.model = model
         self._stop_state = StopState.NO_LINK
         self._stopping: Stopping | None = None
-        self._stop_pressed_at = 0.0
+        self.stop_pressed_at = 0.0
         self.stopping_time_s: float | None = None
         self.idle_limit_s = idle_limit_s
         self.io_control = False
@@ -256,7 +256,7 @@ class Controller:
             return
         again = self._stopping is not None or self._stop_state is StopState.STOPPING
         self.motion.let_go()
-        self._stopping, self._stop_pressed_at = None, self.clock()
+        self._stopping, self.stop_pressed_at = None, self.clock()
         self.show_stop(StopState.STOPPING)
         self.link.stop(lambda sure: self._stop_steps(sure, again, then))
 
@@ -274,7 +274,7 @@ class Controller:
             nonces=self.nonces,
             show=self.show_stop,
             abort=abort,
-            heard=self._stop_pressed_at,
+            heard=self.stop_pressed_at,
         )
         still = False
         try:
@@ -294,7 +294,7 @@ class Controller:
         """What the STOP button shows; 500 ms without an answer is NOT CONFIRMED, whatever the link is doing."""
         if self._stop_state is StopState.STOPPING:
             stopping = self._stopping
-            heard = self._stop_pressed_at if stopping is None else stopping.heard
+            heard = self.stop_pressed_at if stopping is None else stopping.heard
             if self.clock() - heard >= NO_ANSWER_S:
                 self.show_stop(StopState.NOT_CONFIRMED)
         return self._stop_state
