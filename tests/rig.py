@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
@@ -16,7 +17,7 @@ from device.transport import OpenFailed, Transport
 from device.transport.loopback import Loopback
 
 T = TypeVar("T")
-LINE = LineSettings(baud=19200)
+LINE = LineSettings(baud=int(os.environ.get("TEST_BAUD", "19200")))  # tests/long runs panels at the other rates too
 ROUND_TICKS = 1_024_000 // 20  # time that passes in a round without a line
 
 

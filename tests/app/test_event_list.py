@@ -49,7 +49,7 @@ def test_stop_download_and_program_errors_are_there_and_found(stage: Stage) -> N
     stage.connect("simulator", "ssc1")
     stage.download()
     stage.controller.stop()
-    stage.until(lambda: "STOP was pressed" in words(stage))
+    stage.until(lambda: "stopped (confirmed)" in words(stage))
     stage.rig.start("#A\nPR 100\nQQ 5\nEN")
     stage.until(lambda: "program error" in words(stage))
     panel = stage.studio.at_machine.event_list
