@@ -17,7 +17,7 @@ from device.transport import OpenFailed, Transport
 from device.transport.loopback import Loopback
 
 T = TypeVar("T")
-LINE = LineSettings(baud=int(os.environ.get("TEST_BAUD", "19200")))  # tests/long runs panels at the other rates too
+LINE = LineSettings(baud=int(os.environ.get("TEST_BAUD", "19200")))  # tests/app/test_other_speeds.py asks for others
 ROUND_TICKS = 1_024_000 // 20  # time that passes in a round without a line
 
 
