@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from collections.abc import Sequence
 from functools import lru_cache
 
 from codegen.drift import cut
@@ -36,6 +37,9 @@ class Compiled:
     warnings: tuple[Finding, ...]
     unscaled: str  # axes it needs whose scale was never set up
     noteworthy: bool  # whether the last pass has more to do than to add the lines
+
+
+NOTHING = Compiled((), (), 0, (), "", (), (), (), (), "", False)
 
 
 def compiled(instruction: Instruction, setup: Setup) -> Compiled:
@@ -138,7 +142,7 @@ def code(instruction: Instruction, setup: Setup) -> tuple[str, ...]:
     return tuple(numbered(text, numbers) for text in (*made.before, *made.after))
 
 
-def numbered(text: str, numbers: list[str]) -> str:
+def numbered(text: str, numbers: Sequence[str]) -> str:
     if text.isascii():
         return text
     for place, number in enumerate(numbers):

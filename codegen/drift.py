@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import lru_cache
+from types import MappingProxyType
 
 from codegen.expressions import Bad, Binary, Expression, Negative, Number, walk
 from codegen.fields import AXES, Dimension, base_letter, value_of
@@ -13,6 +13,7 @@ from codegen.instructions import (
     CircularPath,
     ContourMode,
     DefinePosition,
+    End,
     Home,
     IncrementalPosition,
     Instruction,
@@ -22,18 +23,23 @@ from codegen.instructions import (
     Repeat,
     SingleAxisMove,
     TangentPath,
+    TwoLetterCode,
 )
 from codegen.instructions.flow import JumpIf, JumpKind, RepeatMode
 from codegen.instructions.machine import Register
 from codegen.instructions.motion import MoveMode
 from codegen.instructions.path_parts import Measured
+from codegen.laps import FINEST, Course, Item, Mark, added, courses
 from codegen.numbers import plain, shown
 from codegen.paths import legs
 from codegen.program import Step, Steps
+from codegen.raw_course import raw_items
 from codegen.read import problems
 from codegen.setup import Setup
 
 MANY = Fraction(1000)  # turns of a loop without end that are looked at
+SIMPLE = 10**6  # denominator of what a sum of them stood for: no scale has more
+NONE: Mapping[str, Course] = MappingProxyType({})
 
 
 def turns(repeat: Repeat) -> Fraction:
@@ -58,79 +64,62 @@ MOVES = frozenset(
 )
 
 
-class Sums:
-    """What the steps beside each other are off by, added up once: any stretch of them costs a few look-ups.
-
-    Sums are floats: they are far finer than the four digits that are shown, and made anew at every edit.
-    """
-
-    def __init__(self, steps: Steps, setup: Setup) -> None:
-        self.steps = steps
-        self.off: dict[str, tuple[list[int], list[float]]] = {}  # by axis: where it grows, and the sum up to there
-        self.known: dict[str, list[int]] = {}  # by axis: where an absolute move puts it to a known place
-        self.cuts: list[int] = []  # where an expression is cut down
-        self.labels: dict[str, int] = {}
-        for number, step in enumerate(steps):
-            move = step.instruction
-            kind = type(move)
-            if kind in MOVES:
-                if step.enabled:
-                    self._add(number, move, setup)
-            elif isinstance(move, Label) and step.enabled:
-                self.labels.setdefault(move.name, number)
-            elif isinstance(move, Repeat) and step.enabled:
-                inside = Sums(step.body, setup)
-                count = float(turns(move))
-                self._grow(number, ((letter, count * off) for letter, off in inside.errors().items()))
-                if inside.cuts:
-                    self.cuts.append(number)
-
-    def _add(self, number: int, move: Instruction, setup: Setup) -> None:
-        offs, places, is_cut = _moves(move, setup)
-        for letter in places:
-            self.known.setdefault(letter, []).append(number)
-        if offs:
-            self._grow(number, offs)
-        if is_cut:
-            self.cuts.append(number)
-
-    def _grow(self, number: int, offs: Iterable[tuple[str, float]]) -> None:
-        for letter, off in offs:
-            places, sums = self.off.setdefault(letter, ([], [0.0]))
-            places.append(number)
-            sums.append(sums[-1] + off)
-
-    def errors(self, start: int = 0, end: int | None = None) -> dict[str, float]:
-        """What one run of the steps is off by on each axis, in user units (sent minus wanted)."""
-        last = len(self.steps) if end is None else end
-        return {
-            letter: sums[bisect_left(places, last)] - sums[bisect_left(places, start)]
-            for letter, (places, sums) in self.off.items()
-            if not _between(self.known.get(letter, ()), start, last)
-        }
-
-    def reverses(self, start: int = 0, end: int | None = None) -> bool:
-        """Whether a distance among the steps is cut down to whole counts, going back as well as forth."""
-        return _between(self.cuts, start, len(self.steps) if end is None else end)
+def repeated(repeat: Repeat, body: Course) -> Course:
+    """The course of a repeat from that of what it holds."""
+    count = turns(repeat)
+    offs = tuple([(letter, round(count * off)) for letter, off in body.offs if letter not in body.known])
+    certain = repeat.mode in (RepeatMode.COUNT, RepeatMode.FOREVER, RepeatMode.UNTIL)  # it runs at least once
+    return Course(offs, body.known if certain else frozenset(), body.cuts, body.calls)
 
 
-def _between(places: Sequence[int], start: int, end: int) -> bool:
-    """Whether one of the places, which go upwards, lies there."""
-    return bisect_left(places, start) < bisect_left(places, end)
+def along(steps: Steps, setup: Setup, at: int = 0) -> tuple[Item, ...]:
+    """Marks, and the courses between them; the first step is number `at` of its stretch."""
+    items: list[Item] = []
+    between: list[Course] = []
+    for number, step in enumerate(steps, at):
+        for item in _items(step, setup, number):
+            if isinstance(item, Course):
+                between.append(item)
+                continue
+            if between:
+                items.append(added(between))
+                between = []
+            items.append(item)
+    if between:
+        items.append(added(between))
+    return tuple(items)
 
 
-Moves = tuple[tuple[tuple[str, float], ...], str, bool]
+def _items(step: Step, setup: Setup, number: int) -> Iterable[Item]:
+    if not step.enabled:
+        return ()
+    match step.instruction:
+        case Label(name=name):
+            return (Mark("label", name),)
+        case Jump(kind=JumpKind.CALL, target=name):
+            return (Course(calls=frozenset({name})),)
+        case Jump(when=JumpIf.ALWAYS, target=name):
+            return (Mark("jump", name, step.id, number),)
+        case End():
+            return (Mark("end", ""),)
+        case Repeat() as repeat:
+            return (repeated(repeat, courses(along(step.body, setup))),)
+        case TwoLetterCode(text=text):
+            return raw_items(text, setup, step.id, number)
+        case move if type(move) in MOVES:
+            return (_course(move, setup),)
+    return ()
 
 
-def _moves(move: Instruction, setup: Setup) -> Moves:
-    """What an instruction is off by on each axis, the axes whose place is known behind it, whether it is cut; kept."""
-    found: Moves | None = move.recall("_drift", setup)
+def _course(move: Instruction, setup: Setup) -> Course:
+    """The course of a single move; kept."""
+    found: Course | None = move.recall("_drift", setup)
     if found is None:
         wrong = any(finding.severity == "error" for finding in problems(move, setup))  # it sends nothing
         letters = [] if wrong else [letter for letter in setup.letters if letter in AXES]
-        offs = ((letter, off_by(move, setup, letter)) for letter in letters)
-        known = "".join(letter for letter in letters if anew(move, letter))
-        found = tuple((letter, float(off)) for letter, off in offs if off), known, cut(move) is not None
+        offs = [(letter, round(off_by(move, setup, letter) * FINEST)) for letter in letters]
+        known = frozenset(letter for letter in letters if anew(move, letter))
+        found = Course(tuple([each for each in offs if each[1]]), known, cut(move) is not None)
         move.remember("_drift", setup, found)
     return found
 
@@ -202,37 +191,41 @@ def drift(step: Step, setup: Setup) -> str | None:
     """`This repeat drifts by 1.6 mm in 1000 turns`; None when it stays within a count."""
     if not isinstance(step.instruction, Repeat):
         return None
-    return _drift("This repeat", Sums(step.body, setup), 0, len(step.body), setup, turns(step.instruction))
+    return judged("This repeat", courses(along(step.body, setup)), setup, turns(step.instruction))
 
 
-def jump_drift(sums: Sums, number: int, setup: Setup) -> str | None:
-    """The same of a loop that a jump without condition closes; the jump is the step of that number."""
-    jump = sums.steps[number].instruction
-    start = sums.labels.get(jump.target, number) if isinstance(jump, Jump) else number
-    return _drift("This loop", sums, start, number, setup, MANY) if start < number else None
-
-
-def closes_a_loop(jump: Instruction) -> bool:
-    """Whether it is a jump without condition."""
-    return isinstance(jump, Jump) and jump.kind is JumpKind.GO and jump.when is JumpIf.ALWAYS
-
-
-def _drift(words: str, sums: Sums, start: int, end: int, setup: Setup, count: Fraction) -> str | None:
-    if sums.off:
-        found = tuple([(letter, round(off, 12)) for letter, off in sums.errors(start, end).items()])
-        if found and (text := _far(found, setup, float(count))):
-            return words + text
-    if sums.cuts and sums.reverses(start, end):
+def judged(
+    words: str, turn: Course, setup: Setup, count: Fraction = MANY, called: Mapping[str, Course] = NONE
+) -> str | None:
+    """What to say of a loop with this course; nothing of axes that a called subroutine may put to a known place."""
+    known = turn.known | _known_by_calls(turn.calls, called, setup)
+    far = tuple([(letter, off) for letter, off in turn.offs if off and letter not in known])
+    if far and (text := _far(far, setup, float(count))):
+        return words + text
+    if turn.cuts:
         return f"{words} may drift: expressions are cut down to whole counts, going back as well as forth"
     return None
 
 
+def _known_by_calls(calls: frozenset[str], called: Mapping[str, Course], setup: Setup) -> frozenset[str]:
+    """Of a subroutine that is not a step of the program, nothing is known: it may do it to every axis."""
+    known: frozenset[str] = frozenset()
+    waiting, seen = list(calls), set(calls)
+    while waiting:
+        course = called.get(waiting.pop())
+        known |= frozenset(setup.letters) if course is None else course.known
+        new = course.calls - seen if course is not None else frozenset()
+        seen |= new
+        waiting += new
+    return known
+
+
 @lru_cache(maxsize=4096)
-def _far(offs: tuple[tuple[str, float], ...], setup: Setup, count: float) -> str:
+def _far(offs: tuple[tuple[str, int], ...], setup: Setup, count: float) -> str:
     """` drifts: X by 1.6 mm in 1000 turns`; nothing where every axis is off by less than a count."""
     parts = []
     for letter, off in sorted(offs, key=lambda each: AXES.index(each[0])):
-        axis, far = setup.axis(letter), Fraction(off).limit_denominator(10**12) * Fraction(count)
+        axis, far = setup.axis(letter), Fraction(off, FINEST).limit_denominator(SIMPLE) * Fraction(count)
         if abs(far) * axis.scale >= 1:
             parts.append(f"{letter} by {shown(far, 4)} {axis.symbol}")
     return f" drifts: {', '.join(parts)} in {plain(Fraction(count))} turns" if parts else ""

@@ -6,6 +6,7 @@ import dataclasses as dc
 import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from enum import StrEnum
+from itertools import chain, count
 
 from codegen.expressions import Bad, names, parse_expression
 from codegen.fields import SYSTEM_LABELS
@@ -75,7 +76,7 @@ class Program:
     def steps(self) -> Iterator[Step]:
         """All steps in order, containers before what they hold."""
         for section in Section:
-            yield from _walk(self.section(section))
+            yield from walk(self.section(section))
 
     @property
     def auto(self) -> bool:
@@ -83,11 +84,12 @@ class Program:
         return any(step.enabled and isinstance(step.instruction, AutoExecution) for step in self.configuration)
 
 
-def _walk(steps: Steps) -> Iterator[Step]:
+def walk(steps: Steps) -> Iterator[Step]:
+    """Steps with what they hold, containers first."""
     for step in steps:
         yield step
         if step.body:
-            yield from _walk(step.body)
+            yield from walk(step.body)
 
 
 def with_section(program: Program, section: Section, steps: Steps) -> Program:
@@ -126,7 +128,7 @@ def move(program: Program, ids: Collection[str], place: Place) -> Program:
     """Moves steps, in their order in the program, to a place counted before the move; into itself nothing moves."""
     moving = frozenset(ids)
     taken = _outermost(program, moving)
-    if not taken or any(step.id == place.parent for one in taken for step in _walk((one,))):
+    if not taken or any(step.id == place.parent for one in taken for step in walk((one,))):
         return program
     siblings = children(program, place.parent)
     before = sum(1 for step in siblings[: place.index] if step.id in moving)
@@ -318,10 +320,14 @@ def labels(program: Program) -> tuple[str, ...]:
     found: dict[str, None] = {}
     for step in program.steps():
         if isinstance(step.instruction, Label | Subroutine) and step.enabled:
-            name = step.instruction.name if isinstance(step.instruction, Label) else step.instruction.label
-            if name and name not in SYSTEM_LABELS:
-                found[name] = None
+            found |= dict.fromkeys(jump_label(step.instruction))
     return tuple(found)
+
+
+def jump_label(place: Label | Subroutine) -> tuple[str, ...]:
+    """The name that a Jump can give; none of an automatic routine."""
+    name = place.name if isinstance(place, Label) else place.label
+    return (name,) if name and name not in SYSTEM_LABELS else ()
 
 
 def variables(program: Program) -> tuple[str, ...]:
@@ -355,8 +361,13 @@ def _name(text: str) -> tuple[str, ...]:
 
 def program_label(program: Program, taken: Collection[str] = ()) -> str:
     """The label of the program: the first 7 letters and digits of its name, in capitals, a letter first."""
-    letters = re.sub(r"[^A-Z0-9]", "", program.name.upper())
+    return label_for(program.name, {*labels(program), *taken})
+
+
+def label_for(name: str, taken: Collection[str]) -> str:
+    """The label of a program of that name, when these are taken."""
+    letters = re.sub(r"[^A-Z0-9]", "", name.upper())
     label = re.sub(r"^[0-9]+", "", letters)[:7]
-    used = {*labels(program), *SYSTEM_LABELS, *taken}
-    candidates = (label, "MAIN", *(f"MAIN{number}" for number in range(1, 1000)))
+    used = {*taken, *SYSTEM_LABELS}
+    candidates = chain((label, "MAIN"), (f"MAIN{number}" for number in count(1)))
     return next(candidate for candidate in candidates if candidate and candidate not in used)

@@ -15,6 +15,7 @@ from codegen.instructions import (
     CircularPath,
     ContourMode,
     DefinePosition,
+    End,
     Home,
     IncrementalPosition,
     Instruction,
@@ -23,9 +24,11 @@ from codegen.instructions import (
     LinearPath,
     Repeat,
     SingleAxisMove,
+    Subroutine,
+    TwoLetterCode,
     Wait,
 )
-from codegen.instructions.flow import JumpIf, RepeatMode
+from codegen.instructions.flow import JumpIf, JumpKind, RepeatMode
 from codegen.instructions.path_parts import Measured, Piece, Shape, Stretch
 from codegen.program import Program, Step
 from codegen.setup import Axis, Setup, Unit
@@ -94,3 +97,72 @@ def test_a_jump_back_closes_a_loop(when: JumpIf, wanted: list[str]) -> None:
     found = generate(Document(Program("P", main=main), SETUP)).problems
     assert [each.message for each in found if each.severity == "warning" and "drift" in each.message] == wanted
     assert not wanted or found[-1].step == "s3"
+
+
+def of_loop(*body: Instruction, routines: tuple[Step, ...] = ()) -> list[tuple[str, str]]:
+    """What is said of drift in a program of these steps: step and sentence."""
+    main = tuple(Step(f"s{place}", each) for place, each in enumerate(body))
+    found = generate(Document(Program("P", main=main, routines=routines), SETUP)).problems
+    return [(each.step, each.message) for each in found if "drift" in each.message]
+
+
+MOVE, TEN = SingleAxisMove(distance="1.003"), SingleAxisMove(distance="1")
+FAR = "This loop drifts: X by -3 mm in 1000 turns"
+
+
+def test_what_lies_behind_a_jump_back_is_not_in_its_loop() -> None:
+    """The first jump always goes back, so the second is never reached from the label."""
+    assert of_loop(Label(name="A"), MOVE, Jump(target="A"), MOVE, Jump(target="A")) == [("s2", FAR)]
+    assert of_loop(Label(name="A"), TEN, Jump(target="A"), MOVE, Jump(target="A")) == []
+
+
+def test_a_jump_forward_inside_a_loop() -> None:
+    """Over what does not move it changes nothing; over a move the way depends on what else jumps there."""
+    skip, there = Jump(target="B"), Label(name="B")
+    assert of_loop(Label(name="A"), MOVE, skip, Wait(time="5"), there, Jump(target="A")) == [("s5", FAR)]
+    assert of_loop(Label(name="A"), MOVE, skip, SingleAxisMove(distance="0.003"), there, Jump(target="A")) == []
+    assert of_loop(Label(name="A"), MOVE, Jump(target="OUT"), Jump(target="A")) == []
+
+
+def test_a_called_subroutine_that_homes_ends_the_drift() -> None:
+    call = Jump(kind=JumpKind.CALL, target="GO")
+    home = Step("r", Subroutine(name="GO"), body=(Step("h", Home(axes="X")), Step("e", End())))
+    grip = Step("r", Subroutine(name="GO"), body=(Step("h", Wait(time="5")), Step("e", End())))
+    body = (Label(name="A"), MOVE, call, Jump(target="A"))
+    assert of_loop(*body, routines=(home,)) == []
+    assert of_loop(*body, routines=(grip,)) == [("s3", FAR)]
+    assert of_loop(*body) == []  # nothing is known of a label that is no step
+
+
+@pytest.mark.parametrize(
+    ("code", "wanted"),
+    [
+        ('MG "X"', [FAR]),
+        ("PR 100;BGX;AMX", [FAR]),  # whole counts are sent as they are
+        ("PR 100.3;BGX;AMX", ["This loop drifts: X by -6 mm in 1000 turns"]),  # 0.3 + 0.3 counts a turn
+        ("PR ,100.3;BGY;AMY", ["This loop drifts: X by -3 mm, Y by -3 mm in 1000 turns"]),
+        ("IPX=-0.5", ["This loop drifts: X by -8 mm in 1000 turns"]),  # rounded down to -1 (commands.md, 11)
+        ("PR LEN", [FAR]),
+        ("PA 0;BGX;AMX", []),  # a known place each turn
+        ("DP 0", []),
+        ("JS #OWN", []),
+        ("EN", []),  # the jump back is not reached
+    ],
+)
+def test_two_letter_code_in_a_loop(code: str, wanted: list[str]) -> None:
+    body = (Label(name="A"), MOVE, TwoLetterCode(text=code), Jump(target="A"))
+    assert [text for _, text in of_loop(*body)] == wanted
+    repeat = told(MOVE, TwoLetterCode(text=code)) if code != "EN" else None
+    assert [repeat] == [text.replace("loop", "repeat") for text in wanted] or (repeat is None and not wanted)
+
+
+@pytest.mark.parametrize(
+    ("code", "wanted"),
+    [
+        ("#OWN\nPR 10.3;BGX;AMX\nJP #OWN", [("s0", FAR)]),
+        ("#OWN\nPR 10;BGX;AMX\nJP #OWN", []),
+        ("#OWN\nPR 10.3;BGX;AMX\nJP #OWN,V=1", []),
+    ],
+)
+def test_a_loop_of_two_letter_code(code: str, wanted: list[tuple[str, str]]) -> None:
+    assert of_loop(TwoLetterCode(text=code)) == wanted

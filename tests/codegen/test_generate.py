@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import random
 from pathlib import Path
 
 import pytest
@@ -43,7 +44,9 @@ from codegen.read import _problems, _sentence, sentence
 from codegen.setup import Axis, Setup
 from codegen.twoletter.check import check
 from resources import path
+from tests.benchmarks.editing import large_document, random_edit
 from tests.codegen.strategies import SETUP, items, programs
+from tests.long import count
 
 GOLDEN = Path(__file__).parent.parent / "golden"
 EXAMPLES = sorted(Path(path("examples")).glob("*.tlp"))
@@ -306,6 +309,26 @@ def test_memo_equals_from_scratch(data: st.DataObject) -> None:
         anew = files.loads(files.dumps(Document(program, setup)))  # other instances: nothing is remembered
         assert generate(anew) == kept
         assert [sentence(each.instruction, setup) for each in anew.program.steps()] == said
+
+
+def test_a_large_program_is_put_together_as_from_scratch() -> None:
+    """1000 steps, some of them in repeats and subroutines of many steps, arrays, numbers, labels: edit by edit."""
+    chance, large = random.Random(7), large_document()
+    program, main = large.program, large.program.main
+    held = (Step("r1", Repeat(count="5"), body=main[200:300]), Step("r2", Repeat(count="5"), body=main[300:303]))
+    array = Step("a1", VariableArray(mode=Declare.ARRAY, array="PLACES", size="10"))
+    routines = (Step("u1", Subroutine(name="GRIP"), body=(*main[400:500], Step("u2", Repeat(), body=main[500:502]))),)
+    program = dc.replace(program, main=(*main[:200], *held, array, *main[502:]), routines=routines)
+    now = dc.replace(large, program=program)
+    for number in range(count(4, 200)):
+        inside = chance.choice([step for step in now.program.steps() if step.id not in ("r1", "r2", "u1", "s0")])
+        changed = replace(now.program, dc.replace(inside, enabled=not inside.enabled))
+        now = random_edit(chance, dc.replace(now, program=changed), number)
+        for each in (now, dc.replace(now, compact=True)):
+            kept = generate(each)
+            anew = generate(files.loads(files.dumps(each)))  # other instances: nothing is remembered
+            assert anew == kept
+            assert all(number in kept.lines_of(line.step) for number, line in enumerate(kept.lines))
 
 
 @pytest.mark.parametrize("model", [name for name, model in MODELS.items() if model.family != "smartmotor"])

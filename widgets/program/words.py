@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Mapping
-
 from codegen import read
 from codegen.document import Document
 from codegen.generate import Line, Listing
@@ -19,19 +16,11 @@ class Words:
         self.listing: Listing | None = None
         self.problems: dict[str, list[str]] = {}
         self.errors: set[str] = set()
-        self._lines: Mapping[str, list[int]] = {}
 
     def show(self, document: Document, listing: Listing) -> None:
         """Speaks of `document` from now on."""
         self.document, self.listing = document, listing
-        lines: defaultdict[str, list[int]] = defaultdict(list)
-        for number, (_, step, _, parts) in enumerate(listing.lines):
-            if parts:
-                for part in parts:
-                    lines[part.step].append(number)
-            else:
-                lines[step].append(number)
-        self.problems, self.errors, self._lines = {}, set(), lines
+        self.problems, self.errors = {}, set()
         for problem in listing.problems:
             self.problems.setdefault(problem.step, []).append(problem.message)
             if problem.severity == "error":
@@ -49,9 +38,9 @@ class Words:
         steps = self.document.program.steps() if self.document is not None else ()
         return next((self.english(step) for step in steps if step.id == step_id), "")
 
-    def lines_of(self, step_id: str) -> list[int]:
+    def lines_of(self, step_id: str) -> tuple[int, ...]:
         """The lines of code a step stands for, without those of its body."""
-        return self._lines.get(step_id, [])
+        return self.listing.lines_of(step_id) if self.listing is not None else ()
 
     def code(self, step: Step) -> str:
         """The step's own lines of code on one line."""

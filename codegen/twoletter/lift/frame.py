@@ -6,7 +6,6 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 
 from codegen.fields import SYSTEM_LABELS
-from codegen.generate import END_OF
 from codegen.instructions import (
     AutoExecution,
     Comment,
@@ -19,6 +18,7 @@ from codegen.instructions import (
 )
 from codegen.instructions.flow import EndOf, JumpKind, Routine
 from codegen.program import Program, Step, program_label
+from codegen.stretch import END_OF
 from codegen.twoletter.lift.loops import folded, steps
 
 AUTO = "AUTO"
