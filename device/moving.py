@@ -9,6 +9,10 @@ A jog panel needs no more than this (`motion` is `controller.motion`; nothing he
   axis stands, with a `Ran`: `run_on` (counts) and `seconds` from letting go until it stood, to be shown.
 * Latched jog: `motion.set_latch(True)` (off at start, and off again after STOP, Watch, a lost line), then
   `motion.run("X", speed, ac, dc, owner="panel")`; ends with `motion.release("panel")`.
+* Several axes at speeds that change: `motion.drive({"X": v, "Y": v}, ac, dc, owner="stick")` with ramps by axis, then
+  `motion.steer("stick", {…})` whenever the hand moves (0, or not named: that axis stops), `renew` and `release` as
+  above. `along` names live values that are read meanwhile. The future ends with a `Drove`.
+* `motion.undertake(going)` is for work of several moves in one hand (`device.teach`).
 * Everything else is a plan of `device.jog` (`by`, `to`, `line`, `arc`, `home`, `zero`): show `plan.ghost(places)` as
   the marker and `plan.passes(places)` before the start, then `motion.go(plan, owner=…, homed=letters)`. `places` come
   from `motion.look(axes)`, or from the live row (`commanded.x`) with `Places(…).narrowed(setup)`. `go` looks afresh:
@@ -24,7 +28,7 @@ drives. STOP ends everything here; nothing starts again by itself.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from functools import partial
@@ -33,6 +37,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from codegen.fields import Dimension
 from device.jog import Places, Plan, axes_driven, told
 from device.lease import CODE, COUNTS, EXCHANGE, FLAG, LINE_S, LOOK_S, Exchange, Lease, Ran, StopNeeded, ended
+from device.poll import requests
+from device.steer import SLOWEST, Drive, Drove, Track
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Wait
 from device.wire import Kind, Shape
 
@@ -73,6 +79,11 @@ class Going:
     @property
     def held(self) -> bool:
         return not self.released
+
+    @property
+    def axes(self) -> str:
+        """What a stop of it names."""
+        return "S" if self.plan.sequence else self.plan.axes
 
     def release(self) -> None:
         self.released = True
@@ -117,8 +128,7 @@ class Going:
             raise LinkError(f"{self.plan.title}: not started, “{line}” was refused: {why}.")
 
     def _stop(self) -> Steps[bool]:
-        target = "S" if self.plan.sequence else self.plan.axes
-        answer = yield from self.exchange.prove(f"ST {target}", stops=True)
+        answer = yield from self.exchange.prove(f"ST {self.axes}", stops=True)
         return answer.kind is Kind.ACCEPTED
 
     def _result(self) -> Steps[Ended]:
@@ -144,7 +154,7 @@ class Motion:
 
     def __init__(self, controller: Controller) -> None:
         self._c = controller
-        self._now: Lease | Going | None = None
+        self._now: Lease | Going | Drive | None = None
         self._ended: Future[Any] | None = None
         self.setup: Setup | None = None
         self.latch = False
@@ -162,7 +172,7 @@ class Motion:
 
     def renew(self, owner: str = "") -> None:
         """Goes on holding; to be called every 50 ms."""
-        if isinstance(self._now, Lease) and self._now.owner == owner:
+        if isinstance(self._now, Lease | Drive) and self._now.owner == owner:
             self._c.used()
             self._now.renew()
 
@@ -170,6 +180,50 @@ class Motion:
         """Lets go, or stops the planned move; without an owner whoever it is."""
         if self._now is not None and owner in (None, self._now.owner):
             self._now.release()
+
+    def drive(
+        self,
+        speeds: Mapping[str, float],
+        acceleration: Mapping[str, float],
+        deceleration: Mapping[str, float],
+        owner: str = "",
+        along: Iterable[str] = (),
+    ) -> Future[Drove]:
+        """Holds the axes that are named, at speeds (counts/s with sign) that `steer` changes; ramps by axis."""
+        c, letters = self._c, "".join(speeds)
+        problem = self._objection(letters, owner) or self._unsteerable(speeds, acceleration, deceleration)
+        if problem:
+            return refused(f"Not moved: {problem}")
+        exchange = self._exchange()
+        tracks = {
+            letter: Track(letter, math.trunc(acceleration[letter]), math.trunc(deceleration[letter]), exchange)
+            for letter in letters
+        }
+        columns, poller = exchange.columns, c.poller
+        keys = [key for key in poller.ring.columns if key in set(along)]
+        drive = Drive(
+            tracks, exchange, owner, resting=lambda: next(filter(None, map(self._endangered, letters)), ""),
+            one_at_a_time=len(tracks) > 1 and 2 * EXCHANGE * c.line.byte_s > LINE_S, along=requests(keys, columns),
+            told=lambda values: poller.ring.write(values, c.clock(), keep=poller.wanted()), renewed=c.clock(),
+        )  # fmt: skip
+        drive.steer(speeds)
+        return self._begin(drive, self._driven(drive), Priority.LEASE)
+
+    def steer(self, owner: str, speeds: Mapping[str, float]) -> str:
+        """Other speeds for the axes that are driven; why not, or nothing."""
+        now = self._now
+        if not isinstance(now, Drive) or now.owner != owner or not now.held:
+            return "Nothing is driven by this hand."
+        problem = next((text for axis in now.axes if (text := self._too_fast(axis, speeds.get(axis, 0.0)))), "")
+        if not problem:
+            now.steer(speeds)
+        return problem
+
+    def _driven(self, drive: Drive) -> Steps[Drove]:
+        places = yield from self._look(drive.axes)
+        for letter, track in drive.tracks.items():
+            track.low, track.high = places.reverse[letter], places.forward[letter]
+        return (yield from drive.steps())
 
     # ----------------------------------------------------------- latched jogs
 
@@ -197,8 +251,7 @@ class Motion:
         now = self._now
         if now is None or not self._busy() or self._c.door.question:
             return b""
-        axes = now.axis if isinstance(now, Lease) else "S" if now.plan.sequence else now.plan.axes
-        return f"ST {axes}\r".encode()
+        return f"ST {now.axis if isinstance(now, Lease) else now.axes}\r".encode()
 
     # ---------------------------------------------------------- planned moves
 
@@ -214,20 +267,30 @@ class Motion:
         going = Going(plan, owner, self._exchange())
         return self._begin(going, self._checked(going, frozenset(homed), confirmed), Priority.USER)
 
+    def undertake(self, going: Going) -> Future[Any]:
+        """Several moves of one hand; refused like one of them, ended like one."""
+        problem = going.plan.problem or self._objection(going.plan.axes, going.owner)
+        return refused(f"Not moved: {problem}") if problem else self._begin(going, going.steps(), Priority.USER)
+
     # ------------------------------------------------------------ for display
 
     @property
     def ghost(self) -> dict[str, int]:
         """Where the held axis stops when it is let go now, counts; empty when nothing is held."""
         now = self._now
-        return {now.axis: now.ghost} if isinstance(now, Lease) and self._busy() else {}
+        if not self._busy() or now is None or isinstance(now, Going):
+            return {}
+        return {now.axis: now.ghost} if isinstance(now, Lease) else now.ghost
 
     @property
     def busy(self) -> str:
         """What moves by hand now, in words, or nothing."""
-        if not self._busy():
+        now = self._now
+        if not self._busy() or now is None:
             return ""
-        return f"axis {self._now.axis}" if isinstance(self._now, Lease) else self._now.plan.title if self._now else ""
+        if isinstance(now, Going):
+            return now.plan.title
+        return f"axis {now.axis}" if isinstance(now, Lease) else f"axes {' and '.join(now.axes)}"
 
     # ----------------------------------------------------------------- inside
 
@@ -247,7 +310,7 @@ class Motion:
         )  # fmt: skip
         return self._begin(lease, lease.steps(), Priority.LEASE)
 
-    def _begin(self, now: Lease | Going, steps: Steps[T], priority: Priority) -> Future[T]:
+    def _begin(self, now: Lease | Going | Drive, steps: Steps[T], priority: Priority) -> Future[T]:
         """One after the other: the one before is let go and stands first."""
         before = self._ended if self._busy() else None
         self.release()
@@ -257,14 +320,14 @@ class Motion:
         self._ended = future
         return future
 
-    def _in_turn(self, now: Lease | Going, before: Future[Any] | None, steps: Steps[T]) -> Steps[T]:
+    def _in_turn(self, now: Lease | Going | Drive, before: Future[Any] | None, steps: Steps[T]) -> Steps[T]:
         while before is not None and not before.done():
             yield Wait(0.01)
         if not now.held:
             steps.close()
             raise NotAllowed("Not moved: it was let go before it began.")
         poller = self._c.poller
-        poller.brief = self._brief() if isinstance(now, Lease) else 0
+        poller.brief = 0 if isinstance(now, Going) else self._brief()
         try:
             return (yield from steps)
         except StopNeeded:
@@ -314,7 +377,25 @@ class Motion:
             return "the speed is no number above 0."
         if acceleration < 1024 or deceleration < 1024:
             return "acceleration and deceleration must be at least 1024 counts/s²."
+        return self._too_fast(axis, speed)
+
+    def _unsteerable(
+        self, speeds: Mapping[str, float], acceleration: Mapping[str, float], deceleration: Mapping[str, float]
+    ) -> str:
+        """Why these axes can not be driven."""
         c = self._c
+        if EXCHANGE * c.line.byte_s > LINE_S:
+            return f"driving needs a faster line than {c.line.baud} baud; move by increments."
+        for axis, speed in speeds.items():
+            fastest = math.copysign(max(abs(speed), SLOWEST), speed)  # one that stands now may move later
+            if problem := self._unfit(axis, fastest, acceleration[axis], deceleration[axis]):
+                return problem
+        return "" if speeds else "no axis was named."
+
+    def _too_fast(self, axis: str, speed: float) -> str:
+        c = self._c
+        if not math.isfinite(speed):
+            return "the speed is no number."
         top = float(c.model.servo_max_counts_s) if c.model is not None else math.inf
         if self.setup is not None:
             factor = self.setup.factor(Dimension.SPEED, axis)
