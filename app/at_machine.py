@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from app.by_hand import ByHand
 from app.event_list import Happened
+from app.ghosts import Ghosts
 from app.operator import Operator
+from app.points import Points
 from app.search import Candidate
 from app.variables import Variables
 from app.window import BOTTOM, RIGHT
@@ -35,7 +37,13 @@ class AtMachine:
         self.variables = Variables(connection, tick, self.values, ask, studio.files.folder, studio)
         self.operator = Operator(connection, tick, self.keys, ports, studio)
         self.happened = Happened(connection, studio.session, tick, self.event_list, data, studio.window)
-        self.by_hand = ByHand(connection, studio.session, tick, self.jog, ask, studio.ear.homed_axes, studio)
+        self.by_hand = ByHand(
+            connection, studio.session, tick, self.jog, ask, studio.ear.homed_axes, studio.settings,
+            Points(data / "points"), studio,
+        )  # fmt: skip
+        self.ghosts = Ghosts(studio.display, self.plane, self.jog, studio.ear.homed_axes)
+        self.ghosts.sources.append(self.by_hand.ghost)
+        tick.each(self.ghosts.look)
         self.event_list.line_wanted.connect(studio.ear.reveal)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (

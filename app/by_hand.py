@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
 from app.connection import Connection
+from app.points import Points, file_name
 from app.run import Ask
 from app.session import Session
+from app.settings import Settings
 from app.tick import Tick, failure_of
-from device.jog import zero
+from device.jog import told, zero
 from device.moving import NeedsConfirmation
 from widgets.display.readings import unit_of
+from widgets.jog.ends import places_of
 from widgets.jog.panel import JogPanel
 from widgets.parts.units import shown
 
 if TYPE_CHECKING:
-    from device.jog import Plan
+    from codegen.document import Document
+    from device.jog import Places, Plan
     from device.lease import Ran
     from device.moving import Ended
 
 PANEL = "panel"
+SPEEDS = "jog_speeds"  # the setting
 
 
 class ByHand(QObject):
@@ -37,9 +42,13 @@ class ByHand(QObject):
         panel: JogPanel,
         ask: Ask,
         homed: Callable[[], Iterable[str]],
+        settings: Settings,
+        points: Points,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
+        self._settings, self._points = settings, points
+        self._going: dict[str, int] = {}  # where a planned move on its way ends, counts
         self._connection, self._session, self._tick = connection, session, tick
         self._panel, self._ask, self._homed = panel, ask, homed
         panel.hold_wanted.connect(self._hold)
@@ -49,6 +58,18 @@ class ByHand(QObject):
         panel.latch_wanted.connect(lambda on: self._motion.set_latch(on))
         panel.plan_wanted.connect(self.go)
         panel.zero_wanted.connect(self._zero)
+        panel.speed_kept.connect(self._keep_speed)
+        panel.show_speeds(self._speeds())
+        panel.point_wanted.connect(self._go_to_point)
+        panel.point_saved.connect(self._save_point)
+        panel.point_renamed.connect(lambda before, name: self._points_changed(self._points.rename(before, name)))
+        panel.point_deleted.connect(self._delete_point)
+        session.document_changed.connect(self._document_changed)
+        self._open_points()
+
+    def ghost(self) -> Mapping[str, int]:
+        """Where axes will stop: held, on their way, or looked at; counts."""
+        return self._motion.ghost or self._going or self._panel.preview
 
     @property
     def _motion(self) -> Any:
@@ -68,8 +89,10 @@ class ByHand(QObject):
         """A planned move; asked about first where it passes a limit or the axis is not homed."""
         self._panel.show_result(f"{plan.title}…")
         future: Future[Ended] = self._motion.go(plan, owner=PANEL, homed=self._homed(), confirmed=confirmed)
+        self._going = plan.ghost(self._places(plan.axes))
 
         def done(future: Future[Any]) -> None:
+            self._going = {}
             error = None if future.cancelled() else future.exception()
             if isinstance(error, NeedsConfirmation):
                 self._panel.show_result("")
@@ -82,6 +105,67 @@ class ByHand(QObject):
 
         self._tick.when_done(future, done)
 
+    def _go_to_point(self, plan: Plan) -> None:
+        """Says what will move and where, and goes after a yes."""
+        setup, places = self._session.document.working_setup, self._places(plan.axes)
+        ways = [
+            f"Axis {letter}: from {told(places.commanded[letter], letter, setup)} to {told(end, letter, setup)}."
+            if letter in places.commanded
+            else f"Axis {letter}: to {told(end, letter, setup)}."
+            for letter, end in plan.ends.items()
+        ]
+        unknown = [letter for letter in plan.axes if letter not in set(self._homed())]
+        doubts = [f"Axis {letter} was not seen homed: that place may be anywhere." for letter in unknown]
+        if passes := plan.passes(places, setup):
+            doubts.append(passes)
+        words = "\n".join([*ways, *doubts, "Each axis goes straight at its own speed; they do not arrive together."])
+        answers = [("Go there", lambda: self.go(plan, confirmed=bool(doubts)))]
+        self._ask(f"{plan.title}?", words, answers, "warning" if doubts else "help")
+
+    def _places(self, letters: str) -> Places:
+        """Where the axes are commanded to be as far as that is fresh, between the limits of the setup."""
+        controller = self._connection.controller
+        return places_of(controller.last(), letters, self._session.document.working_setup, controller.clock())
+
+    def _save_point(self, name: str) -> None:
+        controller = self._connection.controller
+        row, setup = controller.last(), self._session.document.working_setup
+        keys = {letter: f"position.{letter.lower()}" for letter in controller.axes or setup.letters}
+        old = [letter for letter, key in keys.items() if row.stale(key, controller.clock())]
+        if old:
+            self._panel.show_result(f"Not saved: the place of axis {old[0]} is not read at the moment.", good=False)
+            return
+        counts = {letter: round(row.value(key)) for letter, key in keys.items()}
+        self._points_changed(self._points.save_here(name, counts, setup))
+
+    def _delete_point(self, name: str) -> None:
+        words = f"The point “{name}” is forgotten. Nothing moves."
+        delete = [("Delete it", lambda: self._points_changed(self._points.delete(name)))]
+        self._ask(f"Delete “{name}”?", words, delete, "warning")
+
+    def _points_changed(self, problem: str) -> None:
+        self._panel.show_result(problem, good=not problem)
+        self._panel.show_points(self._points.points)
+
+    def _open_points(self) -> None:
+        self._points_changed(self._points.open(self._session.document.setup))
+
+    def _document_changed(self, old: Document | None, new: Document) -> None:
+        if old is None or file_name(old.setup) != file_name(new.setup):
+            self._open_points()
+
+    def _keep_speed(self, axis: str, name: str, speed: str) -> None:
+        kept = self._speeds()
+        kept[axis] = {**kept.get(axis, {}), name: speed}
+        self._settings.set(SPEEDS, kept)
+        self._panel.show_speeds(kept)
+
+    def _speeds(self) -> dict[str, dict[str, str]]:
+        """Of the settings file, as far as it is what this program wrote."""
+        found = self._settings.get(SPEEDS)
+        tables = {axis: kept for axis, kept in found.items() if isinstance(kept, dict)}
+        return {axis: {k: v for k, v in kept.items() if isinstance(v, str)} for axis, kept in tables.items()}
+
     def _zero(self, axis: str) -> None:
         words = (
             f"The place where axis {axis} stands now becomes 0. Programs and limits count from there. Nothing moves."
@@ -89,15 +173,15 @@ class ByHand(QObject):
         self._ask(f"Set axis {axis} to zero here?", words, [("Set to zero", lambda: self.go(zero(axis)))], "warning")
 
     def _ended(self, ended: Ended) -> str:
-        at = ", ".join(self._place(letter, counts) for letter, counts in ended.places.items())
+        at = ", ".join(self._at(letter, counts) for letter, counts in ended.places.items())
         return f"{ended.sentence} {at}" if at else ended.sentence
 
     def _ran(self, ran: Ran) -> str:
         axis = self._session.document.working_setup.axis(ran.axis)
         ran_on = f"{shown(ran.run_on, axis)} {unit_of(axis)}"
-        return f"{ran.sentence} {self._place(ran.axis, ran.place)}; ran on {ran_on} in {ran.seconds * 1000:.0f} ms."
+        return f"{ran.sentence} {self._at(ran.axis, ran.place)}; ran on {ran_on} in {ran.seconds * 1000:.0f} ms."
 
-    def _place(self, letter: str, counts: int) -> str:
+    def _at(self, letter: str, counts: int) -> str:
         axis = self._session.document.working_setup.axis(letter)
         return f"{letter} at {shown(counts, axis)} {unit_of(axis)}"
 

@@ -136,16 +136,40 @@ def to(axis: str, place: int, speed: int, acceleration: int, deceleration: int) 
     )
 
 
+def to_point(name: str, places: Mapping[str, int], paces: Mapping[str, tuple[int, int, int]]) -> Plan:
+    """Several axes to a saved point, each by itself at its speed, acceleration and deceleration; asks for *homed*."""
+    axes = "".join(sorted(places, key="XYZW".index))
+    columns = {key: {letter: paces[letter][number] for letter in axes} for number, key in enumerate(("SP", "AC", "DC"))}
+    return Plan(
+        f"Go to {name}",
+        axes,
+        (
+            *(f"{key} {_listed(columns[key])}" for key in ("AC", "DC", "SP")),
+            f"PA {_listed(places)}",
+            f"BG {axes}",
+        ),
+        dict(places),
+        absolute=True,
+        stopping_s=max((_stopping(speed, deceleration) for speed, _, deceleration in paces.values()), default=0.0),
+        problem=next((text for axis in axes if (text := _speed_problem(*paces[axis]))), "")
+        or ("" if axes else "The point has no axis."),
+    )
+
+
+def _listed(values: Mapping[str, int]) -> str:
+    """A number for each axis at its place: `1000,,500`."""
+    return ",".join(str(values.get(letter, "")) for letter in "XYZW").rstrip(",")
+
+
 def line(increments: Mapping[str, int], speed: int, acceleration: int, deceleration: int) -> Plan:
     """Two axes on a straight line, by increments, at a speed along it (LM, LI)."""
     axes = "".join(sorted(increments, key="XYZW".index))
     if len(axes) < 2 or not any(increments.values()):
         return Plan("Line", axes, (), {}, problem="A line needs two axes, and a distance that is not 0.")
-    numbers = ",".join(str(increments.get(letter, "")) for letter in "XYZW").rstrip(",")
     return Plan(
         f"Line {axes}",
         axes,
-        (f"LM {axes}", *_vector(speed, acceleration, deceleration), f"LI {numbers}", "LE", "BG S"),
+        (f"LM {axes}", *_vector(speed, acceleration, deceleration), f"LI {_listed(increments)}", "LE", "BG S"),
         dict(increments),
         sequence=True,
         stopping_s=_stopping(speed, deceleration),

@@ -189,7 +189,7 @@ def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     panel.one.hold_forward.pressed.emit()
     for _ in range(20):
         stage.go(1)
-        panel._renew()
+        panel.holder.renew()
     yield "panel-jog", stage.studio.window
     panel.one.hold_forward.let_go()
     stage.go(30)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,13 +18,14 @@ from widgets.display.readings import axis_shown, fresh, rate_words, switches_of
 from widgets.display.switches import SwitchTable
 from widgets.display.threads import ThreadList
 from widgets.panel import Panel, set_text
+from widgets.parts.units import scale_of
 
 if TYPE_CHECKING:
     from codegen.document import Document
     from codegen.setup import Setup
     from device.api import Controller, Row
 
-AXIS_VALUES = ("position", "commanded", "error", "velocity", "switches", "stop_code")
+AXIS_VALUES = ("position", "commanded", "error", "velocity", "switches", "stop_code", "latch")
 LAMP = 24  # px; inputs are read, not clicked
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see positions, inputs and outputs here."
 
@@ -79,6 +81,15 @@ class DisplayPanel(Panel):
         """Of each axis whether it is known to be homed, in words, and why, for the tooltip."""
         for letter, readout in self.axes.items():
             readout.show_homed(*marks.get(letter, ("", "")))
+
+    def show_ghost(self, ghost: Mapping[str, int], homed: Iterable[str]) -> None:
+        """Where axes will stop, counts; and which are known to be homed."""
+        if self._setup is None:
+            return
+        known = set(homed)
+        for letter, readout in self.axes.items():
+            place = ghost.get(letter, math.nan) / scale_of(self._setup.axis(letter))
+            readout.show_mark(place, letter in known)
 
     def watches(self) -> tuple[str, ...]:
         axes = tuple(f"{name}.{letter.lower()}" for letter in self._letters for name in AXIS_VALUES)

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from dataclasses import dataclass
 from functools import partial
 
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QToolTip, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QToolTip, QWidget
 
 from widgets.panel import set_text
+from widgets.parts.axis_bar import AxisBar, Marks
 from widgets.parts.look import look
+
+UNKNOWN = Marks()
 
 
 @dataclass(frozen=True)
 class AxisShown:
-    """Ready texts of one axis; `fraction` is where it stands between its limits, NaN when it has none."""
+    """Ready texts of one axis, and the places on its bar."""
 
     position: str = "–"
     unit: str = ""
@@ -27,44 +30,7 @@ class AxisShown:
     motor_on: bool | None = None
     fault: str = ""
     age: str = ""
-    fraction: float = math.nan
-
-
-class Travel(QWidget):
-    """A thin line from limit to limit with a dot where the axis stands."""
-
-    def __init__(self, letter: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._letter = letter
-        self._fraction = math.nan
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-
-    def show_fraction(self, fraction: float) -> None:
-        """0 at the reverse limit, 1 at the forward limit."""
-        same = fraction == self._fraction or (math.isnan(fraction) and math.isnan(self._fraction))
-        if not same:
-            self._fraction = fraction
-            self.update()
-
-    def sizeHint(self) -> QSize:
-        return QSize(80, 16)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if not math.isfinite(self._fraction):
-            return
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        rect = QRectF(self.rect()).adjusted(7, 0, -7, 0)
-        middle = rect.center().y()
-        painter.setPen(QPen(look().colour("border"), 1.5))
-        painter.drawLine(rect.left(), middle, rect.right(), middle)
-        for x in (rect.left(), rect.right()):
-            painter.drawLine(x, middle - 5, x, middle + 5)
-        outside = not 0 <= self._fraction <= 1
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(look().colour("warning") if outside else look().axis(self._letter))
-        x = rect.left() + rect.width() * min(1.0, max(0.0, self._fraction))
-        painter.drawEllipse(QRectF(x - 5, middle - 5, 10, 10))
+    marks: Marks = UNKNOWN
 
 
 class AxisReadout(QWidget):
@@ -80,7 +46,8 @@ class AxisReadout(QWidget):
         self.name = QLabel(letter)
         self.position, self.unit, self.state = QLabel(), QLabel(), QLabel()
         self.commanded, self.error, self.age = QLabel(), QLabel(), QLabel()
-        self.travel = Travel(letter)
+        self.travel = AxisBar(letter)
+        self._ghost, self._is_homed = math.nan, False
         self.homed = QToolButton()
         self.homed.setAutoRaise(True)
         self.homed.setObjectName("homed")
@@ -109,7 +76,7 @@ class AxisReadout(QWidget):
         set_text(self.commanded, f"commanded {shown.commanded}")
         set_text(self.error, f"error {shown.error}")
         set_text(self.age, shown.age)
-        self.travel.show_fraction(shown.fraction)
+        self._show_marks()
         if before is None or _mood(before) != _mood(shown):
             self._colour(shown)
         self.setAccessibleName(f"{self.letter} axis: {shown.position} {shown.unit}, {_state_words(shown)}")
@@ -122,6 +89,16 @@ class AxisReadout(QWidget):
             self.homed.setToolTip(why)
             self.homed.setAccessibleName(f"{self.letter} axis: {words[2:]}")
             self.homed.setVisible(bool(words))
+
+    def show_mark(self, ghost: float, homed: bool) -> None:
+        """Where it will stop, in its unit (NaN: nothing to show); whether zero is where home is."""
+        if homed != self._is_homed or not (ghost == self._ghost or (ghost != ghost and self._ghost != self._ghost)):
+            self._ghost, self._is_homed = ghost, homed
+            self._show_marks()
+
+    def _show_marks(self) -> None:
+        marks = self._shown.marks if self._shown is not None else UNKNOWN
+        self.travel.show_marks(dc.replace(marks, ghost=self._ghost, homed=self._is_homed))
 
     def _say_why(self) -> None:
         """A click tells what the mark rests on; the menu of the right button takes the person's word."""
@@ -148,12 +125,12 @@ class AxisReadout(QWidget):
         second.addWidget(self.commanded)
         third.setSpacing(12)
         third.addWidget(self.homed)
-        third.addWidget(self.travel, 1)
         third.addWidget(self.age)
-        third.addStretch(0)
+        third.addStretch(1)
         third.addWidget(self.error)
         grid.addLayout(second, 1, 0, 1, 3)
         grid.addLayout(third, 2, 0, 1, 3)
+        grid.addWidget(self.travel, 3, 0, 1, 3)
         grid.setColumnStretch(1, 1)
 
     def _dress(self) -> None:

@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from codegen.numbers import parse_number
 from widgets.display.position import AxisShown
-from widgets.parts.units import NOTHING, scale_of, shown
+from widgets.parts.axis_bar import Marks
+from widgets.parts.units import NOTHING, decimals_of, scale_of, shown
 
 if TYPE_CHECKING:
     from codegen.setup import Axis
@@ -81,7 +83,7 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
         motor_on=known.motor_on,
         fault="" if switches.stale else fault_of(switches, row.value(f"stop_code.{low}")),
         age=age_of(row, f"position.{low}", now),
-        fraction=_fraction(position, axis),
+        marks=marks_of(row, letter, axis),
     )
 
 
@@ -125,12 +127,22 @@ def _speed(counts_s: float, axis: Axis, unit: str) -> str:
     return f"{shown(counts_s, axis, decimals=2)} {unit}/s"
 
 
-def _fraction(position: float, axis: Axis) -> float:
-    """Where the axis stands between BL (0) and FL (1), when both are set up as numbers."""
-    try:
-        low, high = float(axis.reverse_limit), float(axis.forward_limit)
-    except ValueError:
-        return math.nan
-    if high <= low or not math.isfinite(position):
-        return math.nan
-    return (position / scale_of(axis) - low) / (high - low)
+def marks_of(row: Row, letter: str, axis: Axis) -> Marks:
+    """The places of an axis in its unit; the latch once it has caught a place."""
+    low, scale = letter.lower(), scale_of(axis)
+    latch = row.value(f"latch.{low}")
+    return Marks(
+        limit_of(axis.reverse_limit),
+        limit_of(axis.forward_limit),
+        row.value(f"position.{low}") / scale,
+        row.value(f"commanded.{low}") / scale,
+        latch=latch / scale if latch else math.nan,
+        unit=unit_of(axis),
+        decimals=decimals_of(axis),
+    )
+
+
+def limit_of(text: str) -> float:
+    """A soft limit of the setup; NaN where there is none."""
+    number = parse_number(text)
+    return math.nan if number is None else float(number)

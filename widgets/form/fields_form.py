@@ -10,7 +10,7 @@ from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from codegen import fields, read
 from codegen.docs import field_page
@@ -153,6 +153,12 @@ class FieldsForm(QWidget):
         widget.setMinimumHeight(max(widget.minimumHeight(), BELOW))
         grid.setRowStretch(row, 10)
         return True
+
+    def typed_into(self) -> str:
+        """The name of the field that has the focus, or nothing."""
+        inside = QApplication.focusWidget()
+        found = (name for (name, _), cell in self.cells.items() if inside is not None and cell.isAncestorOf(inside))
+        return next(found, "")
 
     def focus_first(self) -> None:
         """Puts the cursor into the first field that has a problem, else into the first one."""

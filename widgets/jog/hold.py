@@ -1,14 +1,49 @@
-"""A button that means something only while it is down, and who holds: mouse or keys, never both."""
+"""A button that means something only while it is down, and who holds: one of mouse, keys, stick and pad."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent
 from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from widgets.parts.look import look
 
+RENEW_MS = 50  # safety.md 4
 HOLDING = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter)
+
+
+class Holder(QObject):
+    """Who holds now: mouse, keys, stick or pad, never two of them; says every 50 ms that it still does."""
+
+    renewed = Signal(str)
+    released = Signal(str)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.owner = ""
+        self._beat = QTimer(self, interval=RENEW_MS)
+        self._beat.setTimerType(Qt.TimerType.PreciseTimer)
+        self._beat.timeout.connect(self.renew)
+
+    def begin(self, owner: str) -> bool:
+        """Takes hold; False where another one holds."""
+        if self.owner:
+            return False
+        self.owner = owner
+        self._beat.start()
+        return True
+
+    def renew(self) -> None:
+        """Still held."""
+        if self.owner:
+            self.renewed.emit(self.owner)
+
+    def let_go(self, owner: str = "") -> None:
+        """This one lets go; without a name whoever it is."""
+        if self.owner and owner in ("", self.owner):
+            self._beat.stop()
+            released, self.owner = self.owner, ""
+            self.released.emit(released)
 
 
 class HoldButton(QPushButton):

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Callable
-from fractions import Fraction
+from collections.abc import Callable, Mapping
 from functools import partial
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -16,29 +15,28 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QSlider,
     QVBoxLayout,
     QWidget,
 )
 
 from codegen.by_hand import OneAxis
 from codegen.fields import Dimension
-from codegen.numbers import parse_number, plain
+from codegen.numbers import plain
 from codegen.setup import Setup
-from device.jog import Plan, Routine
+from device.jog import Places, Plan, Routine
 from widgets.display.readings import unit_of
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
 from widgets.jog import plans
+from widgets.jog.ends import OPEN, ends_words
 from widgets.jog.hold import HoldButton
 from widgets.jog.plans import Pace
-from widgets.jog.travel import TravelBar
-from widgets.panel import set_text
+from widgets.jog.speed import SpeedRow, round_number
+from widgets.panel import set_text, show_role
+from widgets.parts.axis_bar import AxisBar, Marks
 from widgets.parts.look import look
-from widgets.parts.units import shown
+from widgets.parts.units import scale_of, shown
 
-STEPS = 100  # of the speed slider; each is the same factor
-SPAN = 100_000.0  # between the slowest and the fastest speed of the slider
 INCREMENTS = ("0.01", "0.1", "1", "10")
 ROUTINES = {
     Routine.HOME: "Home switch, then index (HM)",
@@ -58,6 +56,7 @@ class OneAxisPage(QWidget):
     latch_wanted = Signal(bool)
     zero_wanted = Signal(str)  # axis
     axis_changed = Signal()
+    speed_kept = Signal(str, str)  # slow, medium or fast; the speed
 
     def __init__(self, setup: Setup, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -68,7 +67,9 @@ class OneAxisPage(QWidget):
         self.form = FieldsForm(Offers(setup), narrow=False)
         self.form.edited.connect(self._edited)
         self.place, self.ghost = QLabel("–"), QLabel()
-        self.travel, self.slider = TravelBar(), QSlider(Qt.Orientation.Horizontal)
+        self.travel, self.fast = AxisBar(self.item.axis), SpeedRow()
+        self.ends, self.there = QLabel(), QLabel()
+        self._told_for: object = None
         self.back, self.forward = QPushButton(), QPushButton()
         self.hold_back, self.hold_forward = HoldButton("◀◀  Hold"), HoldButton("Hold  ▶▶")
         self.latch = QCheckBox("Let it run on without holding")
@@ -92,14 +93,57 @@ class OneAxisPage(QWidget):
         self.form.show_item(self.item)
         self._edited(self.item)
 
-    def show_place(self, counts: float, ghost: float) -> None:
-        """Where the axis is, and where it will stop when it is let go now (NaN: nothing moves by hand)."""
-        axis = self._setup.axis(self.item.axis)
-        set_text(self.place, f"{self.item.axis}  {shown(counts, axis)} {unit_of(axis)}")
-        set_text(self.ghost, f"stops at {shown(ghost, axis)} {unit_of(axis)}" if math.isfinite(ghost) else "")
-        low, high = (_limit(text) for text in (axis.reverse_limit, axis.forward_limit))
-        scale = float(axis.scale)
-        self.travel.show_axis(self.item.axis, low, high, counts / scale, ghost / scale)
+    def show_marks(self, marks: Marks, ghost: float) -> None:
+        """Where the axis is, in its unit, and where it will stop (NaN: nothing moves by hand and none is looked at)."""
+        axis, scale = self._setup.axis(self.item.axis), scale_of(self._setup.axis(self.item.axis))
+        set_text(self.place, f"{self.item.axis}  {shown(marks.actual * scale, axis)} {unit_of(axis)}")
+        ends = f"stops at {shown(ghost, axis)} {unit_of(axis)}" if math.isfinite(ghost) else ""
+        set_text(self.ghost, ends)
+        self.travel.show_axis(self.item.axis)
+        self.travel.show_marks(dc.replace(marks, ghost=ghost / scale))
+
+    def show_ends(self, places: Places) -> None:
+        """Where increments and Go would end from here, and which limit they pass."""
+        key = (self.item, places, self._setup)
+        if key == self._told_for:
+            return
+        self._told_for = key
+        plans_now = [] if self.problem else [plans.by(self.item, self._setup, sign) for sign in (-1, 1)]
+        told = [ends_words(plan, places, self._setup) for plan in plans_now]
+        words = [f"{arrow} {text}" for arrow, (text, _) in zip("◀▶", told, strict=False)]
+        set_text(self.ends, "\n".join(words))
+        show_role(self.ends, "problem" if any(passes for _, passes in told) else "quiet")
+        going = self.plan_there()
+        there, passes = ends_words(going, places, self._setup) if going is not None else ("", False)
+        set_text(self.there, there)
+        show_role(self.there, "problem" if passes else "quiet")
+
+    def looked_at(self) -> Plan | None:
+        """The planned move under the mouse, else the one with the focus; typing shows what is typed."""
+        if self.problem:
+            return None
+        moves = (
+            (self.back, partial(plans.by, self.item, self._setup, -1)),
+            (self.forward, partial(plans.by, self.item, self._setup, 1)),
+            (self.go, self.plan_there),
+        )
+        fields = {"place": self.plan_there, "distance": partial(plans.by, self.item, self._setup, 1)}
+        for seen in (QWidget.underMouse, QWidget.hasFocus):
+            for button, plan in moves:
+                if seen(button):
+                    return plan()
+        name = self.form.typed_into()
+        return fields[name]() if name in fields else None
+
+    def plan_there(self) -> Plan | None:
+        """To the place in the field, when there is one."""
+        if self.problem or plans.problem_of(self.item, self._setup, NEEDS_PLACE):
+            return None
+        return plans.to(self.item, self._setup)
+
+    def show_speeds(self, kept: Mapping[str, str]) -> None:
+        """The three speeds kept for this axis."""
+        self.fast.show_presets(kept)
 
     def show_usable(self, reason: str, latched: bool) -> None:
         """Why nothing may be moved now, or nothing; and whether jogs may run on."""
@@ -140,11 +184,8 @@ class OneAxisPage(QWidget):
         moved = item.axis != self.item.axis
         self.item = item
         self.form.item = item
-        if not self.problem:
-            self.slider.blockSignals(True)
-            self.slider.setValue(self._notch(float(parse_number(item.speed) or 1)))
-            self.slider.blockSignals(False)
         unit = unit_of(self._setup.axis(item.axis))
+        self.fast.show_speed(item.speed, float(self._setup.bounds(Dimension.SPEED, item.axis)[1]), unit)
         distance = item.distance.strip() or "?"
         self.back.setText(f"◀  −{distance} {unit}")
         self.forward.setText(f"+{distance} {unit}  ▶")
@@ -154,23 +195,10 @@ class OneAxisPage(QWidget):
             self.hold_forward.let_go()
             self.axis_changed.emit()
 
-    def _top(self) -> float:
-        return float(self._setup.bounds(Dimension.SPEED, self.item.axis)[1])
-
-    def _notch(self, speed: float) -> int:
-        top = self._top()
-        return round(STEPS * (1 + math.log(max(speed, 1e-12) / top) / math.log(SPAN))) if top > 0 else 0
-
-    def _slid(self, notch: int) -> None:
-        """The same factor for every notch; two figures are enough for a hand."""
-        speed = self._top() * SPAN ** (notch / STEPS - 1)
-        text = plain(Fraction(f"{speed:.2g}"))
-        self._set(speed=text)
-
     def _set(self, **values: str) -> None:
-        self.item = dc.replace(self.item, **values)
-        self.form.show_item(self.item)
-        self._edited(self.item)
+        item = dc.replace(self.item, **values)
+        self.form.show_item(item)
+        self._edited(item)
 
     def _plan(self, make: Callable[[], Plan]) -> None:
         if not self._reason and not self.problem:
@@ -180,8 +208,8 @@ class OneAxisPage(QWidget):
         self._plan(lambda: plans.by(self.item, self._setup, sign))
 
     def _go(self) -> None:
-        if not plans.problem_of(self.item, self._setup, NEEDS_PLACE):
-            self._plan(lambda: plans.to(self.item, self._setup))
+        if (plan := self.plan_there()) is not None:
+            self._plan(lambda: plan)
 
     def _home(self) -> None:
         self._plan(lambda: plans.home(self.item, self._setup, self.routine.currentData()))
@@ -198,7 +226,8 @@ class OneAxisPage(QWidget):
         self.go.clicked.connect(self._go)
         self.home.clicked.connect(self._home)
         self.zero.clicked.connect(lambda: self.zero_wanted.emit(self.item.axis))
-        self.slider.valueChanged.connect(self._slid)
+        self.fast.chosen.connect(lambda text: self._set(speed=text))
+        self.fast.kept.connect(self.speed_kept)
         for preset in self.presets:
             preset.clicked.connect(partial(self._set, distance=preset.text()))
 
@@ -228,18 +257,16 @@ class OneAxisPage(QWidget):
         self.stop_run.setAccessibleName("Stop running")
         self.run_forward.setAccessibleName("Run forward")
         column.addLayout(grid)
+        for label in (self.ends, self.there):
+            label.setWordWrap(True)
+            label.setProperty("role", "quiet")
+        column.addWidget(self.ends)
         self.latch.setProperty("role", "field")
         self.latch.setProperty(
             "hint", "A jog goes on until [ ], STOP or a limit. It is off at start and off again after STOP."
         )
         column.addWidget(self.latch)
-        self.slider.setRange(0, STEPS)
-        self.slider.setAccessibleName("Speed")
-        self.slider.setToolTip("Speed, up to the top speed of the axis")
-        fast = QHBoxLayout()
-        fast.addWidget(QLabel("Speed"))
-        fast.addWidget(self.slider, 1)
-        column.addLayout(fast)
+        column.addWidget(self.fast)
         small = QHBoxLayout()
         small.addWidget(QLabel("Increments"))
         for preset in self.presets:
@@ -254,11 +281,13 @@ class OneAxisPage(QWidget):
             last.addWidget(widget)
         last.addStretch(1)
         column.addLayout(last)
+        column.addWidget(self.there)
         homing = QHBoxLayout()
         self.routine.setAccessibleName("Way home")
         for routine, words in ROUTINES.items():
             self.routine.addItem(words, routine)
         homing.addWidget(self.routine, 1)
+        self.home.setProperty("hint", OPEN)
         homing.addWidget(self.home)
         column.addLayout(homing)
 
@@ -273,17 +302,6 @@ def beginning(setup: Setup) -> OneAxis:
         acceleration=plain(round_number(20_000 / scale)),
         deceleration=plain(round_number(20_000 / scale)),
     )
-
-
-def round_number(number: Fraction) -> Fraction:
-    """The next 1, 2 or 5 times a power of ten below."""
-    power = Fraction(10) ** math.floor(math.log10(number))
-    return max(power * step for step in (1, 2, 5) if power * step <= number)
-
-
-def _limit(text: str) -> float:
-    number = parse_number(text)
-    return math.nan if number is None else float(number)
 
 
 def enable(widget: QWidget, reason: str) -> None:

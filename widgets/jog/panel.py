@@ -1,37 +1,52 @@
-"""The jog panel: one axis, two on a line, two on an arc; it shows where everything ends before it starts."""
+"""The jog panel: one axis, two on a line or an arc, a stick, saved points; it shows where everything ends first."""
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
-from PySide6.QtGui import QHideEvent, QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from device.api import Kind, State
 from widgets.display.display import Column
-from widgets.display.readings import unit_of
+from widgets.display.readings import marks_of, unit_of
+from widgets.jog.ends import ghost_of, places_of
+from widgets.jog.hold import Holder
+from widgets.jog.speed import usual
+from widgets.jog.stack import Stack
 from widgets.panel import Panel, set_text, show_role
-from widgets.parts.units import shown
 
 if TYPE_CHECKING:
     from codegen.document import Document
+    from codegen.points import Point
     from codegen.setup import Setup
     from device.api import Controller, Row
-    from device.jog import Places, Plan
+    from widgets.jog.drive import DrivePage
     from widgets.jog.one_axis import OneAxisPage
+    from widgets.jog.saved import SavedPage
     from widgets.jog.together import TogetherPage
 
-RENEW_MS = 50  # safety.md 4
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to move axes from here."
 WATCHED = "This is Watch: switch to Control to move axes."
 NOT_READY = "The controller does not answer at the moment."
-PAGES = ("One axis", "Line", "Arc")
+PAGES = ("One axis", "Line", "Arc", "Stick", "Points")
+ONE, LINE, ARC, STICK, POINTS = range(5)
 ARROWS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
-KEYS = "keys"
+MODIFIERS = (Qt.Key.Key_Shift, Qt.Key.Key_Control, Qt.Key.Key_Alt, Qt.Key.Key_Meta, Qt.Key.Key_AltGr)
+WITH = (
+    Qt.KeyboardModifier.ShiftModifier
+    | Qt.KeyboardModifier.ControlModifier
+    | Qt.KeyboardModifier.AltModifier
+    | Qt.KeyboardModifier.MetaModifier
+)
+KEYS, MOUSE, ON_SCREEN, PAD = "keys", "mouse", "stick", "pad"
+ARROWS_OFF = "○ Arrow keys: click here to use them for {}"
+ARROWS_ON = "● ← → hold {}, with Shift one increment"
 
 
 class JogPanel(Panel):
@@ -40,45 +55,62 @@ class JogPanel(Panel):
     title = "Jog"
     moves = True
     hold_wanted = Signal(str, int, int, int, str)  # axis, speed with sign, acceleration, deceleration, owner
+    drive_wanted = Signal(object, str)  # Drive, owner
+    steered = Signal(object, str)  # Drive, owner
     run_wanted = Signal(str, int, int, int, str)
     renewed = Signal(str)
     released = Signal(str)
     latch_wanted = Signal(bool)
     plan_wanted = Signal(object)
+    point_wanted = Signal(object)  # Plan to a saved point
     zero_wanted = Signal(str)
+    speed_kept = Signal(str, str, str)  # axis with its unit; slow, medium or fast; the speed
+    point_saved = Signal(str)
+    point_renamed = Signal(str, str)
+    point_deleted = Signal(str)
 
     def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(parent)
         self._clock = clock
         self._setup: Setup | None = None
-        self._owner = ""  # who holds now
-        self._ghost: dict[str, int] = {}
+        self._letters = ""
+        self._kept: Mapping[str, Mapping[str, str]] = {}
+        self._points: tuple[Point, ...] = ()
+        self._pad_words = ""
+        self._leans: set[str] = set()  # sticks that are not in their middle
+        self.preview: dict[str, int] = {}  # where the move that is looked at would end, counts
+        self.ghost: Mapping[str, int] = {}
+        self.holder = Holder(self)
+        self.holder.renewed.connect(self.renewed)
+        self.holder.released.connect(self.released)
         self.one: OneAxisPage | None = None
         self.line: TogetherPage | None = None
         self.arc: TogetherPage | None = None
-        self.pages, self.buttons = QStackedWidget(), [QPushButton(name) for name in PAGES]
-        self.empty, self.result = QLabel(OFFLINE), QLabel()
-        self._beat = QTimer(self, interval=RENEW_MS)
-        self._beat.setTimerType(Qt.TimerType.PreciseTimer)
-        self._beat.timeout.connect(self._renew)
+        self.drive: DrivePage | None = None
+        self.saved: SavedPage | None = None
+        self.pages, self.buttons = Stack(), [QPushButton(name) for name in PAGES]
+        self.empty, self.result, self.arrows = QLabel(OFFLINE), QLabel(), QLabel()
+        self.halt = QPushButton("Stop this move")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self._lay_out()
 
     # ---- what it shows
 
     def attach(self, controller: Controller) -> None:
-        self._let_go()
+        self.holder.let_go()
         super().attach(controller)
         self._fit()
 
     def show_document(self, old: Document | None, new: Document) -> None:
         if old is None or old.setup is not new.setup:
-            self._let_go()
+            self.holder.let_go()
             self._setup = new.working_setup
             self._fit()
 
     def watches(self) -> tuple[str, ...]:
-        return () if self.one is None else (f"position.{self.axis.lower()}", f"commanded.{self.axis.lower()}")
+        if self.one is None:
+            return ()
+        return tuple(f"{name}.{axis.lower()}" for axis in self._moved() for name in ("position", "commanded"))
 
     @property
     def axis(self) -> str:
@@ -97,45 +129,85 @@ class JogPanel(Panel):
 
     def refresh(self, row: Row) -> None:
         self._fit()
-        if self.one is None or self.controller is None:
+        if self.one is None or self.controller is None or self._setup is None:
             return
-        now, key = self._clock(), f"position.{self.axis.lower()}"
-        place = math.nan if row.stale(key, now) else row.value(key)
-        motion = self.controller.motion
-        self.one.show_place(place, float(motion.ghost.get(self.axis, math.nan)))
-        self.one.show_usable(self.reason, motion.latch)
-        for page in (self.line, self.arc):
-            if page is not None:
-                page.show_usable(self.reason)
+        now, reason, motion = self._clock(), self.reason, self.controller.motion
+        if reason:
+            self.holder.let_go()
+        key = f"position.{self.axis.lower()}"
+        marks = marks_of(row, self.axis, self._setup.axis(self.axis))
+        if row.stale(key, now):
+            marks = dc.replace(marks, actual=math.nan, commanded=math.nan)
+        places = places_of(row, self._moved(), self._setup, now)
+        page = self.pages.currentWidget()
+        looked_at = getattr(page, "looked_at", None)
+        self.preview = {} if reason or looked_at is None else ghost_of(looked_at(), places)
+        self.one.show_marks(marks, float(self.ghost.get(self.axis, math.nan)))
+        self.one.show_usable(reason, motion.latch)
+        for shows in (self.one, self.line, self.arc, self.saved):
+            if shows is page and shows is not None:
+                shows.show_ends(places)
+        for each in (self.line, self.arc, self.drive, self.saved):
+            if each is not None:
+                each.show_usable(reason)
+        self.halt.setEnabled(bool(motion.busy))
+        self._show_arrows()
+
+    def show_ghost(self, ghost: Mapping[str, int]) -> None:
+        """Where axes will stop, counts: held, on their way, or looked at. Comes with every tick, seen or not."""
+        self.ghost = ghost
+        if not self.seen:  # a dock behind another one is not hidden for Qt
+            self.preview = {}
+            self.holder.let_go()
+
+    @property
+    def seen(self) -> bool:
+        """Whether anything of the panel is on the screen."""
+        return self.isVisible() and not self.visibleRegion().isEmpty()
 
     def show_result(self, sentence: str, good: bool = True) -> None:
         """How the last move by hand ended."""
         set_text(self.result, sentence)
         show_role(self.result, "quiet" if good else "problem")
 
-    def ends_at(self, plan: Plan, places: Places) -> str:
-        """Where a plan ends, in user units, as a sentence."""
-        if self._setup is None or not plan.ends:
-            return ""
-        ends = []
-        for letter, counts in plan.ghost(places).items():
-            axis = self._setup.axis(letter)
-            ends.append(f"{letter} {shown(counts, axis)} {unit_of(axis)}")
-        return f"Ends at {', '.join(ends)}."
+    def show_speeds(self, kept: Mapping[str, Mapping[str, str]]) -> None:
+        """The speeds that were kept, by axis and unit."""
+        self._kept = kept
+        self._show_kept()
+
+    def show_points(self, points: Sequence[Point]) -> None:
+        """The saved points of this machine."""
+        self._points = tuple(points)
+        if self.saved is not None:
+            self.saved.show_points(self._points)
+
+    def show_pad(self, words: str) -> None:
+        """What is to be said of the gamepad; nothing while one can be used."""
+        self._pad_words = words
+        if self.drive is not None:
+            self.drive.show_pad(words)
 
     def words(self) -> str:
         """What it says, as text."""
         return self.empty.text() if self.empty.isVisibleTo(self) else self.result.text()
 
+    def _moved(self) -> str:
+        """The axes that the open page moves."""
+        page = self.pages.currentIndex()
+        together = {LINE: self.line, ARC: self.arc}.get(page)
+        if together is not None:
+            return "".join(letter for letter in together.item.axes if letter in self._letters)
+        if page == STICK and self.drive is not None:
+            return "".join(self.drive.axes)
+        return self._letters if page == POINTS else self.axis
+
     # ---- holding
 
     def _hold(self, owner: str, sign: int) -> None:
-        if self.one is None or self.reason or self.one.problem:
+        if self.one is None or self.reason or self.one.problem or not self.holder.begin(owner):
             return
         pace = self.one.pace
-        self._owner = owner
         self.hold_wanted.emit(self.axis, sign * pace.speed, pace.acceleration, pace.deceleration, owner)
-        self._beat.start()
 
     def _run(self, sign: int) -> None:
         if sign == 0:
@@ -144,49 +216,77 @@ class JogPanel(Panel):
             pace = self.one.pace
             self.run_wanted.emit(self.axis, sign * pace.speed, pace.acceleration, pace.deceleration, "panel")
 
-    def _renew(self) -> None:
-        if self._owner:
-            self.renewed.emit(self._owner)
+    def lean(self, owner: str, across: float, upward: float) -> None:
+        """A stick stands here; one that was refused or whose hold ended has to go through its middle first."""
+        if self.drive is None:
+            return
+        middle = across == 0 and upward == 0
+        if middle:
+            self._leans.discard(owner)
+            self.holder.let_go(owner)
+        elif self.holder.owner == owner:
+            self.steered.emit(self.drive.drive_at(across, upward), owner)
+        elif owner not in self._leans:
+            self._leans.add(owner)
+            drive = self.drive.drive_at(across, upward)
+            if self._drives() and any(drive.speeds.values()) and self.holder.begin(owner):
+                self.drive_wanted.emit(drive, owner)
 
-    def _released(self, owner: str) -> None:
-        if owner == self._owner:
-            self._let_go()
+    @property
+    def pad_wanted(self) -> bool:
+        """Whether a gamepad may move something: only on the page of the stick, in the window in front."""
+        return self.pages.currentIndex() == STICK and self.seen and self.isActiveWindow()
 
-    def _let_go(self) -> None:
-        """Whatever is held is let go."""
-        self._beat.stop()
-        owner, self._owner = self._owner, ""
-        if owner:
-            self.released.emit(owner)
+    def _drives(self) -> bool:
+        return not self.reason and self.pages.currentIndex() == STICK and self.seen
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Arrows hold, with Shift they go one increment; only while the panel itself has the focus."""
-        sign = ARROWS.get(Qt.Key(event.key()))
-        if sign is None or self.pages.currentIndex() != 0 or self.one is None:
+        key = Qt.Key(event.key())
+        sign = ARROWS.get(key)
+        if self.holder.owner == KEYS and not event.isAutoRepeat():  # another key: it is not clear what is meant
+            self.holder.let_go()
+        elif sign is None or self.pages.currentIndex() != ONE or self.one is None:
             super().keyPressEvent(event)
-        elif not event.isAutoRepeat() and event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
-            (self.one.forward if sign > 0 else self.one.back).click()
-        elif not event.isAutoRepeat() and not self._owner:
-            self._hold(KEYS, sign)
+        elif not event.isAutoRepeat():
+            pressed = event.modifiers() & WITH
+            if pressed == Qt.KeyboardModifier.ShiftModifier:
+                (self.one.forward if sign > 0 else self.one.back).click()
+            elif not pressed and not self.one.latch.isChecked():
+                self._hold(KEYS, sign)
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:
-        if Qt.Key(event.key()) in ARROWS and not event.isAutoRepeat():
-            self._released(KEYS)
+        key = Qt.Key(event.key())
+        if (key in ARROWS or key in MODIFIERS) and not event.isAutoRepeat():
+            self.holder.let_go(KEYS)
         else:
             super().keyReleaseEvent(event)
 
     def hideEvent(self, event: QHideEvent) -> None:
         super().hideEvent(event)
-        self._let_go()
+        self.holder.let_go()
+        self.preview = {}
 
-    def focusOutEvent(self, event: QEvent) -> None:
-        self._released(KEYS)
-        super().focusOutEvent(event)  # type: ignore[arg-type]
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        super().focusInEvent(event)
+        self._show_arrows()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        self.holder.let_go(KEYS)
+        super().focusOutEvent(event)
+        self._show_arrows()
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
         if event.type() is QEvent.Type.ActivationChange and not self.isActiveWindow():
-            self._let_go()
+            self.holder.let_go()
+
+    def _show_arrows(self) -> None:
+        """Whether the arrow keys move something now."""
+        on = self.hasFocus() and self.pages.currentIndex() == ONE and not self.reason
+        set_text(self.arrows, (ARROWS_ON if on else ARROWS_OFF).format(self.axis))
+        show_role(self.arrows, "ok" if on else "quiet")
+        self.arrows.setVisible(self.pages.currentIndex() == ONE)
 
     # ---- arrangement
 
@@ -197,48 +297,84 @@ class JogPanel(Panel):
         if self.empty.isVisibleTo(self) == linked:
             self.empty.setVisible(not linked)
             self._area.setVisible(linked)
+            self._foot.setVisible(linked)
         if not linked or not self.isVisible() or self._setup is None or controller is None:
             return
-        letters = controller.axes or self._setup.letters
-        wanted = (self._setup, letters)
         if self.one is None:
             self._make_pages(self._setup)
+        wanted = (self._setup, controller.axes or self._setup.letters)
         if wanted != self._fitted:
             self._fitted = wanted
-            assert self.one is not None and self.line is not None and self.arc is not None
-            self.one.show_setup(self._setup, letters)
-            self.line.show_setup(self._setup)
-            self.arc.show_setup(self._setup)
-            for button in self.buttons[1:]:
-                button.setVisible(len(letters) > 1)
-            if len(letters) == 1:
-                self._open(0)
+            self._show_setup(*wanted)
+
+    def _show_setup(self, setup: Setup, letters: str) -> None:
+        assert self.one and self.line and self.arc and self.drive and self.saved
+        self._letters = letters
+        self.one.show_setup(setup, letters)
+        self.line.show_setup(setup)
+        self.arc.show_setup(setup)
+        self.drive.show_setup(setup, letters)
+        self.saved.show_setup(setup, letters)
+        self._show_kept()
+        for button in (self.buttons[LINE], self.buttons[ARC]):
+            button.setVisible(len(letters) > 1)
+        if len(letters) == 1 and self.pages.currentIndex() in (LINE, ARC):
+            self._open(ONE)
+
+    def _show_kept(self) -> None:
+        if self.one is None or self._setup is None or self.drive is None or self.saved is None:
+            return
+        speeds = {letter: self._speeds_of(letter, self._setup) for letter in self._letters or self._setup.letters}
+        self.one.show_speeds(speeds.get(self.axis, {}))
+        self.drive.show_speeds(speeds)
+        self.saved.show_speeds(speeds)
+
+    def _speeds_of(self, letter: str, setup: Setup) -> dict[str, str]:
+        from codegen.fields import Dimension
+
+        made = usual(setup.bounds(Dimension.SPEED, letter)[1], setup.axis(letter).scale)
+        return {**made, **self._kept.get(f"{letter} {unit_of(setup.axis(letter))}", {})}
+
+    def _keep_speed(self, name: str, text: str) -> None:
+        if self._setup is not None:
+            self.speed_kept.emit(f"{self.axis} {unit_of(self._setup.axis(self.axis))}", name, text)
+
+    def _another_axis(self) -> None:
+        self.holder.let_go()
+        self._show_kept()
 
     def _make_pages(self, setup: Setup) -> None:
-        from codegen.by_hand import Arc, Line
-        from widgets.jog import plans
-        from widgets.jog.one_axis import OneAxisPage
-        from widgets.jog.together import TogetherPage
+        from widgets.jog.pages import make_pages
 
-        self.one = OneAxisPage(setup)
-        self.line = TogetherPage(Line(), plans.line, setup)
-        self.arc = TogetherPage(Arc(), plans.arc, setup)
+        self.one, self.line, self.arc, self.drive, self.saved = make_pages(setup)
         one = self.one
         one.hold_wanted.connect(self._hold)
-        one.let_go.connect(self._released)
+        one.let_go.connect(self.holder.let_go)
         one.run_wanted.connect(self._run)
         one.latch_wanted.connect(self.latch_wanted)
+        one.latch_wanted.connect(lambda _: self.holder.let_go())
         one.zero_wanted.connect(self.zero_wanted)
-        one.axis_changed.connect(self._let_go)
+        one.axis_changed.connect(self._another_axis)
+        one.speed_kept.connect(self._keep_speed)
+        self.drive.leaned.connect(lambda across, upward: self.lean(ON_SCREEN, across, upward))
+        self.drive.let_go.connect(self.holder.let_go)
+        self.saved.save_wanted.connect(self.point_saved)
+        self.saved.go_wanted.connect(self.point_wanted)
+        self.saved.rename_wanted.connect(self.point_renamed)
+        self.saved.delete_wanted.connect(self.point_deleted)
         for page in (one, self.line, self.arc):
             page.plan_wanted.connect(self.plan_wanted)
-            self.pages.addWidget(page)
         for together in (self.line, self.arc):
             together.stop_wanted.connect(lambda: self.released.emit(""))
+        for each in (one, self.line, self.arc, self.drive, self.saved):
+            self.pages.addWidget(each)
+        self.show_points(self._points)
+        self.show_pad(self._pad_words)
 
     def _open(self, index: int) -> None:
-        self._let_go()
+        self.holder.let_go()
         self.pages.setCurrentIndex(index)
+        self.pages.updateGeometry()
         for number, button in enumerate(self.buttons):
             button.setChecked(number == index)
 
@@ -268,7 +404,16 @@ class JogPanel(Panel):
         column.addLayout(row)
         self.result.setWordWrap(True)
         self.result.setProperty("role", "quiet")
-        column.addWidget(self.result)
+        self.result.setMinimumHeight(2 * self.fontMetrics().height())  # what is below does not jump
+        column.addWidget(self.arrows)
         column.addWidget(self.pages)
         column.addStretch(1)
+        self._foot = QWidget()
+        foot = QHBoxLayout(self._foot)
+        foot.setContentsMargins(0, 0, 0, 0)
+        foot.addWidget(self.result, 1)
+        foot.addWidget(self.halt)
+        self.halt.clicked.connect(lambda: self.released.emit(""))
+        self._foot.hide()
+        outer.addWidget(self._foot)
         outer.addStretch(0)

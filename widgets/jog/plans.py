@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -10,9 +11,13 @@ from typing import Any
 from codegen import read
 from codegen.by_hand import Arc, Line, OneAxis
 from codegen.fields import AXES, Dimension, fields_of
-from codegen.numbers import parse_number
+from codegen.numbers import parse_number, plain
+from codegen.points import Point, counts_of
 from codegen.setup import Setup
 from device import jog
+
+RAMP_S = Fraction(1, 4)  # to the speed of a point or a stick
+LEAST_RAMP = 1024  # counts/s²; AC and DC take no less
 
 
 @dataclass(frozen=True)
@@ -62,6 +67,34 @@ def home(item: OneAxis, setup: Setup, routine: jog.Routine) -> jog.Plan:
     """One of the three routines, at the speed of the fields."""
     pace = pace_of(item, setup)
     return jog.home(item.axis, routine, pace.speed, pace.acceleration, pace.deceleration)
+
+
+def pace_at(axis: str, speed: str, setup: Setup) -> Pace | str:
+    """Of a kept speed, with ramps that reach it in a quarter of a second; or why it can not be driven."""
+    number = parse_number(speed)
+    low, top = setup.bounds(Dimension.SPEED, axis)
+    if number is None or number <= 0:
+        return f"Axis {axis} has no such speed; keep one on the page of one axis."
+    if not low <= number <= top:
+        return f"Axis {axis}: {speed} is above its top speed, {plain(top)} {setup.unit_text(Dimension.SPEED, axis)}."
+    least, most = setup.bounds(Dimension.ACCELERATION, axis)
+    ramp = setup.counts(Dimension.ACCELERATION, axis, min(max(number / RAMP_S, least), most))
+    ramp = max(ramp, LEAST_RAMP)
+    return Pace(setup.counts(Dimension.SPEED, axis, number), ramp, ramp)
+
+
+def to_point(point: Point, letters: str, speeds: Mapping[str, str], setup: Setup) -> jog.Plan | str:
+    """To a saved point, every axis at its kept speed; or why not."""
+    places = counts_of(point, setup, letters)
+    if isinstance(places, str):
+        return places
+    paces = {}
+    for axis in places:
+        pace = pace_at(axis, speeds.get(axis, ""), setup)
+        if isinstance(pace, str):
+            return pace
+        paces[axis] = (pace.speed, pace.acceleration, pace.deceleration)
+    return jog.to_point(f"“{point.name}”", places, paces)
 
 
 def line(item: Line, setup: Setup) -> jog.Plan | str:

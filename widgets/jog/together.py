@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Callable
 from typing import Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from codegen.fields import Dimension
 from codegen.setup import Setup
-from device.jog import Plan
+from device.jog import Places, Plan
+from widgets.display.readings import unit_of
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
+from widgets.jog.ends import ends_words
 from widgets.jog.one_axis import enable
-from widgets.panel import set_text
+from widgets.jog.speed import SpeedRow
+from widgets.panel import set_text, show_role
 from widgets.parts.look import look
 
 
@@ -32,12 +37,14 @@ class TogetherPage(QWidget):
         self.plan: Plan | None = None
         self.form = FieldsForm(Offers(setup))
         self.form.edited.connect(self._edited)
-        self.words = QLabel()
+        self.words, self.ends, self.fast = QLabel(), QLabel(), SpeedRow(presets=False)
+        self._told_for: object = None
         self.go, self.halt = QPushButton("Go"), QPushButton("Stop")
         self._reason = ""
         self._lay_out()
         self.go.clicked.connect(self._go)
         self.halt.clicked.connect(self.stop_wanted)
+        self.fast.chosen.connect(self._take_speed)
         self.form.show_item(item)
         self._edited(item)
 
@@ -53,6 +60,22 @@ class TogetherPage(QWidget):
         enable(self.go, reason or self.problem)
         enable(self.halt, reason)
 
+    def show_ends(self, places: Places) -> None:
+        """Where it would end from here, and which limit it passes."""
+        key = (self.plan, places, self._setup)
+        if key == self._told_for:
+            return
+        self._told_for = key
+        words, passes = ends_words(self.plan, places, self._setup) if self.plan is not None else ("", False)
+        set_text(self.ends, words)
+        show_role(self.ends, "problem" if passes else "quiet")
+
+    def looked_at(self) -> Plan | None:
+        """The page has one move: shown while the mouse is over it or something in it has the focus."""
+        inside = QApplication.focusWidget()
+        focused = inside is not None and self.isAncestorOf(inside)
+        return self.plan if focused or self.underMouse() else None
+
     @property
     def problem(self) -> str:
         """Why there is no plan, or nothing."""
@@ -63,11 +86,17 @@ class TogetherPage(QWidget):
         made = self._make(item, self._setup)
         wrong = made if isinstance(made, str) else made.problem
         self.plan = None if isinstance(made, str) or made.problem else made
-        set_text(self.words, wrong or "; ".join(made.commands) if not isinstance(made, str) else made)
-        self.words.setProperty("role", "problem" if self.plan is None else "quiet")
-        self.words.style().unpolish(self.words)
-        self.words.style().polish(self.words)
+        set_text(self.words, wrong or ("; ".join(self.plan.commands) if self.plan is not None else ""))
+        show_role(self.words, "problem" if self.plan is None else "quiet")
+        axes = item.axes or self._setup.letters
+        top = min(self._setup.bounds(Dimension.SPEED, letter)[1] for letter in axes)
+        self.fast.show_speed(item.speed, float(top), unit_of(self._setup.axis(axes[0])))
         self.show_usable(self._reason)
+
+    def _take_speed(self, text: str) -> None:
+        self.item = dc.replace(self.item, speed=text)
+        self.form.show_item(self.item)
+        self._edited(self.item)
 
     def _go(self) -> None:
         if self.plan is not None and not self._reason:
@@ -78,8 +107,10 @@ class TogetherPage(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
         column.addWidget(self.form)
-        self.words.setWordWrap(True)
-        column.addWidget(self.words)
+        column.addWidget(self.fast)
+        for label in (self.ends, self.words):
+            label.setWordWrap(True)
+            column.addWidget(label)
         row = QHBoxLayout()
         for button in (self.go, self.halt):
             button.setMinimumHeight(look().space["touch"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt
@@ -45,6 +45,7 @@ class PlanePanel(Panel):
         self.plot: Plot | None = None
         self._drawn: dict[str, Any] = {}
         self._paths: dict[str, Path] = {}
+        self._ghost: dict[str, int] = {}
         self.across, self.upward = QComboBox(), QComboBox()
         self.clear, self.fit = QPushButton("Clear trail"), QPushButton("Fit")
         self.place, self.empty = QLabel(), QLabel(EMPTY)
@@ -91,6 +92,12 @@ class PlanePanel(Panel):
         if not points:
             del self._paths[name]
         self._draw_paths()
+
+    def show_ghost(self, ghost: Mapping[str, int]) -> None:
+        """Where the two axes will stop, counts: a ring; an axis that does not move keeps its place."""
+        if ghost != self._ghost:
+            self._ghost = dict(ghost)
+            self._draw_ghost()
 
     def forget(self) -> None:
         """An empty trail."""
@@ -139,6 +146,7 @@ class PlanePanel(Panel):
         plot = self.plot = Plot("Path of two axes from above", equal=True)
         self._drawn = {
             "limits": plot.plot(), "commanded": plot.plot(), "actual": plot.plot(),
+            "ghost": plot.plot(symbol="o", symbolSize=20),
             "target": plot.plot(symbol="+", symbolSize=14), "head": plot.plot(symbol="o", symbolSize=11),
         }  # fmt: skip
         self.layout().insertWidget(1, plot, 1)  # type: ignore[union-attr]
@@ -157,6 +165,23 @@ class PlanePanel(Panel):
             self._drawn[name].setData(trail.points, pen={"color": colour, "width": width})
         for name, trail, colour in (("target", self.commanded, "quiet"), ("head", self.actual, "accent")):
             self._drawn[name].setData(trail.points[-1:], symbolBrush=look().colour(colour), symbolPen=None, pen=None)
+        if self._ghost:
+            self._draw_ghost()
+
+    def _draw_ghost(self) -> None:
+        if self.plot is None or self._setup is None:
+            return
+        points = []
+        if self.shown and any(letter in self._ghost for letter in self.shown) and self.commanded.count:
+            here = self.commanded.points[-1]
+            ends = [
+                self._ghost[letter] / scale_of(self._setup.axis(letter)) if letter in self._ghost else place
+                for letter, place in zip(self.shown, here, strict=True)
+            ]
+            points = [(float(ends[0]), float(ends[1]))]
+        ring = {"color": look().colour("accent"), "width": 2}
+        self._drawn["ghost"].setData([x for x, _ in points], [y for _, y in points], symbolPen=ring,
+            symbolBrush=None, pen=None)  # fmt: skip
 
     def _draw_paths(self) -> None:
         """Named ones, each in a line of its own; turned where Y is drawn across."""

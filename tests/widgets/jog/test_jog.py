@@ -21,9 +21,9 @@ SCALE = 1000  # counts per mm
 LEFT, SHIFT = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier
 
 
-@pytest.fixture
-def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
-    made = make_studio(tmp_path)
+def make_table(folder: Path) -> Stage:
+    """A studio with a table of 1000 counts per mm, its jog panel in front."""
+    made = make_studio(folder)
     document = made.studio.session.document
     axis = dc.replace(
         document.setup.axes[0], unit=Unit.MM, counts_per_unit=str(SCALE), reverse_limit="-50", forward_limit="200"
@@ -33,8 +33,16 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     made.studio.window.resize(1280, 900)
     made.studio.window.show()
     made.go()
+    made.studio.desk.bring("Display")
+    made.go()
     made.studio.desk.bring("Jog")
     made.go()
+    return made
+
+
+@pytest.fixture
+def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
+    made = make_table(tmp_path)
     yield made
     made.clear_away()
 
@@ -60,7 +68,7 @@ def held_for(stage: Stage, ticks: int) -> None:
     """Time passes while something is held; the timer of the window does not run in virtual time."""
     for _ in range(ticks):
         stage.go(1)
-        stage.studio.at_machine.jog._renew()
+        stage.studio.at_machine.jog.holder.renew()
 
 
 def at(stage: Stage, axis: str = "X") -> int:
@@ -127,14 +135,14 @@ def test_whatever_ends_holding_stops_the_axis(stage: Stage, how: str) -> None:
     elif how == "stop":
         stage.controller.stop()
     else:
-        panel._beat.stop()  # as if the window hung
+        panel.holder._beat.stop()  # as if the window hung
     ticks = (
         12 if how != "nobody renews" else 18
     )  # 150 ms, the stopping time of 0.1 s, the way over the line; as a dead PC
     for _ in range(ticks):
         stage.go(1)
         if how in ("focus", "hidden", "page"):
-            panel._renew()  # nothing is renewed any more
+            panel.holder.renew()  # nothing is renewed any more
     assert not moving(stage)
 
 
