@@ -1,0 +1,200 @@
+"""Captures as files: CSV for every spreadsheet, NumPy for calculating; both come back exactly, with setup and units."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from codegen.files import FileUnreadable, save_text, setup_dumps, setup_loads
+from codegen.models import MODELS
+from device.capture import BY_NAME, SLOWEST, Capture, Channel
+
+FORMAT, VERSION = "twoletter capture", 1
+CSV, NUMPY = ".csv", ".npz"
+MARK = "# "
+DAMAGE = (zipfile.BadZipFile, zlib.error, KeyError, ValueError, OSError, EOFError, NotImplementedError)
+MOST = 1_000_000  # values of a channel; no controller holds as many
+
+
+def save(path: str | Path, capture: Capture) -> None:
+    """Writes a file of the kind its name ends with; a crash leaves an old one whole."""
+    path = Path(path)
+    if path.suffix.lower() == NUMPY:
+        whole = io.BytesIO()
+        about = np.array(json.dumps(_about(capture), ensure_ascii=False))
+        np.savez_compressed(whole, about=about, times=capture.times, values=capture.values)
+        written = path.with_name(path.name + ".new")
+        written.write_bytes(whole.getvalue())
+        written.replace(path)
+    else:
+        save_text(path, dumps(capture))
+
+
+def load(path: str | Path) -> Capture:
+    """Opens either kind; FileUnreadable says in one sentence what is wrong with it."""
+    path = Path(path)
+    try:
+        data = path.read_bytes()
+    except OSError as reason:
+        raise FileUnreadable(f"{path.name} can not be opened: {(reason.strerror or str(reason)).lower()}") from None
+    try:
+        return _from_numpy(data) if data[:2] == b"PK" else loads(data.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        raise FileUnreadable(f"{path.name} is not a capture (it is not text)") from None
+    except FileUnreadable as reason:
+        raise FileUnreadable(f"{path.name} is not a capture: {reason}") from None
+
+
+def dumps(capture: Capture) -> str:
+    """The text of a CSV file: what it is, a line of names, then one line for each moment.
+
+    Every channel stands there as the controller counts it and, where that is another number, in the user's unit.
+    """
+    names, columns = ["time s"], [capture.times]
+    for channel in capture.channels:
+        own = "counts" if channel.row.dimension == "position" else "V" if channel.row.dimension == "voltage" else ""
+        names.append(f"{channel.label} {own}".strip())
+        columns.append(capture.of(channel))
+    for channel in capture.channels:
+        scale, unit = capture.scale(channel)
+        if scale != 1.0:
+            names.append(f"{channel.label} {unit}")
+            columns.append(capture.of(channel) / scale)
+    lines = [MARK + json.dumps(_about(capture), ensure_ascii=False), ",".join(names)]
+    lines += [",".join(map(_text, row)) for row in zip(*(column.tolist() for column in columns), strict=True)]
+    return "\n".join(lines) + "\n"
+
+
+def loads(text: str) -> Capture:
+    """A capture from the text of its file; FileUnreadable says what is wrong in it."""
+    lines = text.splitlines()
+    if not lines or not lines[0].startswith(MARK + "{"):
+        raise FileUnreadable("it does not begin with the line that says so")
+    about = _about_of(lines[0][len(MARK) :])
+    channels = _channels(about)
+    rows = []
+    for number, line in enumerate(lines[2:], 3):
+        cells = line.split(",")
+        if len(cells) < 1 + len(channels):
+            raise FileUnreadable(f"line {number} has {len(cells)} numbers, {1 + len(channels)} at least belong there")
+        rows.append([_number(cell, number) for cell in cells[1 : 1 + len(channels)]])
+    values = np.array(rows, dtype=np.float64).reshape(len(rows), len(channels)).T
+    return _capture(about, channels, np.ascontiguousarray(values))
+
+
+def _from_numpy(data: bytes) -> Capture:
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as file:
+            about, values = _about_of(str(file["about"])), np.asarray(file["values"])
+    except DAMAGE:
+        raise FileUnreadable("it is damaged") from None
+    channels = _channels(about)
+    if values.dtype != np.float64 or values.ndim != 2 or len(values) != len(channels):
+        raise FileUnreadable("its values do not fit its channels")
+    return _capture(about, channels, values)
+
+
+# ------------------------------------------------------------------------ details
+
+
+def _text(number: float) -> str:
+    """The shortest that reads back as the same number; whole ones without a point, unread ones empty."""
+    if math.isnan(number):
+        return ""
+    return str(int(number)) if number.is_integer() and abs(number) < 1e15 else repr(number)
+
+
+def _number(cell: str, line: int) -> float:
+    if not cell.strip():
+        return math.nan
+    try:
+        found = float(cell)
+    except ValueError:
+        raise FileUnreadable(f"line {line}: “{cell.strip()[:20]}” is not a number") from None
+    if math.isinf(found):
+        raise FileUnreadable(f"line {line}: “{cell.strip()[:20]}” is not a number")
+    return found
+
+
+def _about(capture: Capture) -> dict[str, Any]:
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "channels": [[channel.what, channel.axis] for channel in capture.channels],
+        "exponent": capture.exponent,
+        "tm": capture.tm,
+        "count": capture.count,
+        "trigger": capture.trigger,
+        "early": capture.early,
+        "trigger_text": capture.trigger_text,
+        "model": capture.model,
+        "controller": capture.controller,
+        "when": capture.when,
+        "complete": capture.complete,
+        "note": capture.note,
+        "setup": json.loads(setup_dumps(capture.setup)) if capture.setup is not None else None,
+    }
+
+
+def _about_of(text: str) -> dict[str, Any]:
+    try:
+        about = json.loads(text)
+    except (ValueError, RecursionError):
+        raise FileUnreadable("the line that says what it is can not be read") from None
+    if not isinstance(about, dict) or about.get("format") != FORMAT:
+        raise FileUnreadable("it does not say that it is one")
+    if not isinstance(about.get("version"), int) or about["version"] > VERSION:
+        raise FileUnreadable(f"a newer program wrote it (version {about.get('version')}, this one knows {VERSION})")
+    return about
+
+
+def _channels(about: dict[str, Any]) -> tuple[Channel, ...]:
+    found = []
+    listed = about.get("channels")
+    for each in listed if isinstance(listed, list) else []:
+        if not isinstance(each, list) or len(each) != 2 or each[0] not in BY_NAME or str(each[1]) not in "XYZW":
+            raise FileUnreadable(f"it names a channel that there is not ({each})")
+        found.append(Channel(str(each[0]), str(each[1])))
+    if not found or len(set(found)) < len(found):
+        raise FileUnreadable("it names no channels, or one twice")
+    return tuple(found)
+
+
+def _capture(about: dict[str, Any], channels: tuple[Channel, ...], values: np.ndarray[Any, Any]) -> Capture:
+    count = _whole(about, "count", 0, MOST)
+    if values.shape[1] != count:
+        raise FileUnreadable(f"{values.shape[1]} values of each channel are there, {count} were saved")
+    tm = about.get("tm")
+    if not isinstance(tm, int | float) or isinstance(tm, bool) or not math.isfinite(tm) or tm == 0:
+        raise FileUnreadable("its sample time is not a number")
+    model = about.get("model")
+    texts = {name: about.get(name) for name in ("trigger_text", "controller", "when", "note")}
+    if not all(isinstance(text, str) for text in texts.values()) or (model and model not in MODELS):
+        raise FileUnreadable("what it says about itself can not be read")
+    setup = about.get("setup")
+    return Capture(
+        channels=channels,
+        values=values,
+        exponent=_whole(about, "exponent", 1, SLOWEST),
+        tm=float(tm),
+        trigger=_whole(about, "trigger", 0, max(count, 1)),
+        early=_whole(about, "early", 0, MOST),
+        model=str(model or ""),
+        complete=bool(about.get("complete")),
+        setup=setup_loads(json.dumps(setup)) if isinstance(setup, dict) else None,
+        **{name: str(text) for name, text in texts.items()},
+    )
+
+
+def _whole(about: dict[str, Any], name: str, low: int, high: int) -> int:
+    found = about.get(name)
+    if not isinstance(found, int) or isinstance(found, bool) or not low <= found <= high:
+        raise FileUnreadable(f"its {name} is not a number from {low} to {high}")
+    return found

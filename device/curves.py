@@ -1,0 +1,237 @@
+"""Curves of a capture in user units, and what can be read off them: derived values, measurements, the spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from device.capture import Capture, Channel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Values = NDArray[np.float64]
+
+SETTLED = 0.05  # of a stretch at either end: its level before and after a step
+STEP_SHARE = 0.1  # of the peak to peak value: smaller differences of the ends are no step
+HYSTERESIS = 0.1  # of the peak to peak value, around the mean
+PLACES = ("position", "auxiliary", "latch")
+
+
+class Derived(StrEnum):
+    """What is calculated from recorded positions."""
+
+    VELOCITY = "Velocity"
+    ACCELERATION = "Acceleration"
+    FOLLOWING = "Following error"
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One line of a picture; curves of one `group` share a scale."""
+
+    label: str
+    unit: str
+    group: str
+    axis: str
+    values: Values
+    channel: Channel
+    derived: Derived | None = None
+
+    @property
+    def dashed(self) -> bool:
+        """Drawn apart from the actual value beside it."""
+        return self.channel.what in ("commanded", "latch", "outputs")
+
+
+def curves(capture: Capture, derived: Collection[Derived] = ()) -> tuple[Curve, ...]:
+    """Every recorded channel, then what is derived of it, all in user units."""
+    found = [_recorded(capture, channel) for channel in capture.channels]
+    for kind in Derived:
+        if kind in derived:
+            found += [each for axis in "XYZW" if (each := derive(capture, kind, axis)) is not None]
+    return tuple(found)
+
+
+def _recorded(capture: Capture, channel: Channel) -> Curve:
+    scale, unit = capture.scale(channel)
+    return Curve(channel.label, unit, group_of(channel), channel.axis, capture.of(channel) / scale, channel)
+
+
+def group_of(channel: Channel) -> str:
+    """What shares a scale: places with places, errors apart, volts, and each kind of bits and codes."""
+    row = channel.row
+    if row.dimension == "position":
+        return "Position error" if row.name == "error" else "Position"
+    return "Volts" if row.dimension == "voltage" else row.label
+
+
+def derive(capture: Capture, kind: Derived, axis: str) -> Curve | None:
+    """Of one axis; None where what it needs was not recorded."""
+    position, commanded, error = (Channel(what, axis) for what in ("position", "commanded", "error"))
+    if kind is Derived.FOLLOWING:
+        if position in capture.channels and commanded in capture.channels:
+            scale, unit = capture.scale(position)
+            values = (capture.of(commanded) - capture.of(position)) / scale
+        elif error in capture.channels:
+            scale, unit = capture.scale(error)
+            values = capture.of(error) / scale
+        else:
+            return None
+        return Curve(f"{kind} {axis}", unit, "Position error", axis, values, position, kind)
+    source = next((each for each in (position, commanded) if each in capture.channels), None)
+    if source is None or capture.count < 3:
+        return None
+    scale, unit = capture.scale(source)
+    per = "/s" if kind is Derived.VELOCITY else "/s²"
+    calculate = velocity if kind is Derived.VELOCITY else acceleration
+    values = calculate(capture.of(source) / scale, capture.interval_s)
+    return Curve(f"{kind} {axis}", f"{unit}{per}", str(kind), axis, values, source, kind)
+
+
+def velocity(places: Values, interval_s: float) -> Values:
+    """By differences from the element before to the one behind; units a second."""
+    found: Values = np.gradient(places, interval_s)
+    return found
+
+
+def acceleration(places: Values, interval_s: float) -> Values:
+    """By second differences; the ends are as their neighbours."""
+    found = np.full(len(places), np.nan)
+    found[1:-1] = (places[2:] - 2 * places[1:-1] + places[:-2]) / interval_s**2
+    found[0], found[-1] = found[1], found[-2]
+    return found
+
+
+# ------------------------------------------------------------------ measurements
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What a stretch of a curve says; NaN where it has none (no step, no oscillation)."""
+
+    least: float
+    most: float
+    mean: float
+    rms: float
+    peak_to_peak: float
+    rise_s: float
+    frequency_hz: float
+
+
+NOTHING = Measured(*(float("nan"),) * 7)
+
+
+def measure(times: Values, values: Values) -> Measured:
+    """Of one stretch; values that were not read are left out."""
+    known = np.isfinite(values)
+    if not known.any():
+        return NOTHING
+    times, values = times[known], values[known]
+    least, most = float(values.min()), float(values.max())
+    return Measured(
+        least,
+        most,
+        float(values.mean()),
+        float(np.sqrt(np.mean(values**2))),
+        most - least,
+        rise_time(times, values),
+        frequency(times, values),
+    )
+
+
+def rise_time(times: Values, values: Values) -> float:
+    """From 10 to 90 % of a step between the levels at both ends, s; NaN where the ends do not differ."""
+    few = max(1, round(len(values) * SETTLED))
+    before, after = float(np.median(values[:few])), float(np.median(values[-few:]))
+    height = after - before
+    if len(values) < 3 or abs(height) <= STEP_SHARE * float(np.ptp(values)):
+        return float("nan")
+    share = (values - before) / height
+    high = int(np.argmax(share >= 0.9))
+    below = np.flatnonzero(share[:high] <= 0.1)
+    if not len(below):
+        return float("nan")
+    low = int(below[-1])
+    return _crossing(times, share, high - 1, 0.9) - _crossing(times, share, low, 0.1)
+
+
+def _crossing(times: Values, values: Values, place: int, level: float) -> float:
+    """When a straight line from an element to the next passes a level."""
+    start, end = float(values[place]), float(values[place + 1])
+    part = (level - start) / (end - start) if end != start else 0.0
+    return float(times[place] + part * (times[place + 1] - times[place]))
+
+
+def frequency(times: Values, values: Values) -> float:
+    """Of an oscillation around its mean, Hz: whole periods between upward crossings; NaN with less than one."""
+    span = float(np.ptp(values))
+    if len(values) < 3 or span == 0:
+        return float("nan")
+    swing = values - float(values.mean())
+    armed, found = False, []
+    last_below = 0
+    for place in np.flatnonzero(np.abs(swing) >= HYSTERESIS * span / 2):
+        if swing[place] < 0:
+            armed, last_below = True, int(place)
+        elif armed:
+            armed = False
+            between = np.flatnonzero(swing[last_below:place] < 0)
+            found.append(_crossing(times, swing, last_below + int(between[-1]), 0.0))
+    if len(found) < 2 or found[-1] == found[0]:
+        return float("nan")
+    return (len(found) - 1) / (found[-1] - found[0])
+
+
+# ---------------------------------------------------------------------- spectrum
+
+
+class Window(StrEnum):
+    """How a stretch is faded in and out before its spectrum is calculated."""
+
+    HANN = "Hann"
+    FLAT_TOP = "Flat top"
+    NONE = "None (rectangular)"
+
+
+WINDOW_WORDS = {
+    Window.HANN: "Finds frequencies that lie close together; heights up to 15 % low between two lines.",
+    Window.FLAT_TOP: "Heights right to 0.1 %; lines are wider.",
+    Window.NONE: "Right only where a whole number of periods was captured.",
+}
+FLAT_TOP = (0.21557895, -0.41663158, 0.277263158, -0.083578947, 0.006947368)  # five-term flat top window
+
+
+def spectrum(values: Values, interval_s: float, window: Window = Window.HANN) -> tuple[Values, Values]:
+    """Frequencies in Hz and the amplitude of the sine at each, in the curve's unit; the mean is taken out."""
+    values = values[np.isfinite(values)]
+    count = len(values)
+    if count < 4:
+        return np.zeros(0), np.zeros(0)
+    weights = WEIGHTS[window](count)
+    lines = np.abs(np.fft.rfft((values - values.mean()) * weights)) / weights.sum()
+    lines[1:] *= 2
+    if count % 2 == 0:
+        lines[-1] /= 2  # the highest line stands for itself alone
+    hertz: Values = np.fft.rfftfreq(count, interval_s).astype(np.float64)
+    return hertz, lines.astype(np.float64)
+
+
+def _cosines(terms: tuple[float, ...]) -> Callable[[int], Values]:
+    def weights(count: int) -> Values:
+        turn = 2 * np.pi * np.arange(count) / count
+        found: Values = sum((term * np.cos(order * turn) for order, term in enumerate(terms)), np.zeros(count))
+        return found
+
+    return weights
+
+
+WEIGHTS: dict[Window, Callable[[int], Values]] = {
+    Window.HANN: _cosines((0.5, -0.5)),
+    Window.FLAT_TOP: _cosines(FLAT_TOP),
+    Window.NONE: np.ones,
+}
