@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import NDArray
 
+from device.simulator.kernel import servo
 from device.tuning.plant import AxisPlant, Vector, response, sampled
 
 Complex = NDArray[numpy.complex128]
-VOLTS = 20.0 / 65536.0  # of one count of the converter (l.4449-4452)
+VOLTS = servo.VOLTS  # of one count of the converter (l.4449-4452)
 TM_UNITS = 1_024_000.0  # TM counts in 1/1 024 000 s
 POINTS = 3000
 LOWEST = 0.1  # rad/s; below, a loop with an integrator is steeper than any phase lead can follow
@@ -39,7 +40,7 @@ class Margins:
     """How far the loop is from oscillating."""
 
     crossover: float | None  # rad/s where the gain first falls through 1
-    phase: float | None  # degrees, the smallest at any crossing
+    phase: float | None  # degrees to -180° at the crossover, or less where the gain passes 1 again
     gain: float | None  # dB above the crossover; None: the phase never comes to -180°
     sensitivity: float  # the largest |1 / (1 + A)|
     stable: bool  # all poles of the sampled loop lie inside the unit circle
@@ -117,8 +118,10 @@ def margins_of(loop: Complex, frequency: Vector, stable: bool) -> Margins:
         return Margins(None, None, None, sensitivity, stable)
     first, part = places[0]
     crossover = float(frequency[first] * (frequency[first + 1] / frequency[first]) ** part)
-    phases = [phase_margin(between(loop, i, share)) for i, share in places]
-    return Margins(crossover, min(phases), gain_margin(loop, first + 1), sensitivity, stable)
+    at_first, *later = [phase_margin(between(loop, i, share)) for i, share in places]
+    # behind the crossover a spring turns the phase either way: what counts is how far it stays from -180°
+    nearest = min([at_first, *(abs(margin) for margin in later)])
+    return Margins(crossover, nearest, gain_margin(loop, first + 1), sensitivity, stable)
 
 
 def margins(plant: AxisPlant, gains: Gains, period: float) -> Margins:
