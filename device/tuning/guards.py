@@ -162,10 +162,12 @@ def meant(former: Former, c: Controller) -> bool:
 def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], Steps[T]], now: datetime) -> Steps[T]:
     """Narrows, runs `body`, puts back; what can not be put back now stays on disk."""
     former = yield from begin(c, guard, folder, now)
+    began = c.clock()
     try:
         try:
             yield from _narrow(c, guard, former)
             result = yield from body(former)
+            not_stopped(c, began)
         except (Stopped, LinkLost):
             raise
         except LinkError as reason:
@@ -318,10 +320,16 @@ def watch(c: Controller, axis: str) -> Steps[bool]:
     return bool(moving)
 
 
+def not_stopped(c: Controller, since: float) -> None:
+    """Stopped where STOP was pressed since then: reading a record outlives a STOP, moving on does not."""
+    if c.stop_pressed_at >= since:
+        raise Stopped("STOP was pressed.")
+
+
 def _until_stopped(c: Controller) -> Steps[None]:
     """After STOP nothing is sent before its proof; without it the file stays for later."""
     end = c.clock() + STOPPED_S
-    while c.stop_state is not StopState.STOPPED:
+    while c.stop_state in (StopState.STOPPING, StopState.NOT_CONFIRMED):
         if c.clock() > end:
             raise LinkLost("STOP was not confirmed; the former values are kept, and offered when the axis is at rest.")
         yield Wait(0.05)

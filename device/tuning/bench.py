@@ -1,0 +1,318 @@
+"""One axis between its guards: steps and excitations, recorded by the controller, and what is measured of them.
+
+A step is what both manuals allow to a standing axis: a jog at speed 0, in which IP moves the commanded position at
+once (ssc-tol-o-motion.txt l.2154, dmc-1412-1414.txt l.1740). The former gains are back before anything is uploaded,
+so a loop that swings does so for no longer than it is recorded.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from codegen.twoletter.fixed import ONE, scaled
+from device.backing_up import LINE_S, REFUSAL_S, exact
+from device.capture import Capture, Channel, Plan, most
+from device.capturing import CaptureJob, capture_steps
+from device.download import Job, proved
+from device.lease import at
+from device.tasks import LinkError, Steps, Wait
+from device.tuning.automatic import Chosen, Search, Seen, search, vibrates
+from device.tuning.entry import gains_words
+from device.tuning.excite import Excitation, NotIdentified, excitation
+from device.tuning.guards import Cancelled, Fault, Former, Guard, assign, not_stopped, ready, watch
+from device.tuning.loop import Gains, period
+from device.tuning.metrics import Metrics, Response, measure
+from device.tuning.recording import Recording
+from device.wire import Kind
+
+if TYPE_CHECKING:
+    from codegen.models import Model
+    from device.api import Controller
+
+FIELDS = {"KP": "kp", "KI": "ki", "KD": "kd", "FV": "fv", "FA": "fa"}
+ALL = {**FIELDS, "IL": "integrator_limit", "TL": "torque_limit", "OF": "offset"}
+LARGEST_STEP = 20_000  # counts: ER ends at 32 767, and half as much again must be left
+TRIAL_VALUES = 120  # of a channel, in automatic tuning
+EXCITED_VALUES = 500
+SETTLE_S = 0.15  # at rest with the new gains, before the step
+BEFORE = 6  # elements drawn before the step; the axis stands in them
+RECORDED_S = 5.0  # beyond the expected end of a recording
+QUIET_COUNTS = 3  # of swing at rest are no vibration
+CHANNELS = ("error", "torque", "position")
+Told = Callable[["Measured", str], None]
+
+
+@dc.dataclass(frozen=True)
+class Wish:
+    """What a person asks for: a step of `step` counts with these gains, and a margin on either side."""
+
+    axis: str
+    step: int
+    gains: Gains
+    torque: float = 9.9982
+    seconds: float = 0.5
+    margin: int = 0  # counts; 0: 60 % of the step
+
+    @property
+    def guard(self) -> Guard:
+        return Guard.around(self.axis, self.step, self.margin or margin_of(self.step), self.torque)
+
+    @property
+    def problem(self) -> str:
+        """What is wrong with it, or nothing."""
+        if not 4 <= abs(self.step) <= LARGEST_STEP:
+            return f"the step is {self.step} counts; an error limit (ER) can guard 4 to {LARGEST_STEP}."
+        return self.guard.problem
+
+
+def margin_of(step: int) -> int:
+    """Counts on either side that an overshoot may take."""
+    return math.ceil(abs(step) * 0.6) + 20
+
+
+@dc.dataclass(frozen=True, eq=False)
+class Measured:
+    """One recorded step: what was in effect, what came of it."""
+
+    axis: str
+    step: int
+    gains: Gains
+    response: Response
+    metrics: Metrics | None
+    vibrates: bool
+    words: str
+    capture: Capture
+
+
+@dc.dataclass(frozen=True, eq=False)
+class Found:
+    """What an automatic run recommends (none: why it gave up), and every trial with its reason."""
+
+    gains: Gains | None
+    words: str
+    trials: tuple[Measured, ...]
+
+
+@dc.dataclass(frozen=True, eq=False)
+class Excited:
+    """What was recorded of an excitation; `identify` makes an estimate of it, which takes too long for the link."""
+
+    recording: Recording | NotIdentified
+    period: float  # the true sample time, s
+    gains: Gains  # in effect
+
+
+def registers(gains: Gains) -> dict[str, int]:
+    """The five gains as the controller holds them."""
+    return {name: scaled(float(getattr(gains, field))) for name, field in FIELDS.items()}
+
+
+def gains_of(values: Mapping[str, int]) -> Gains:
+    """Gains and what limits them, from registers."""
+    return Gains(**{field: values[name] / ONE for name, field in ALL.items()})
+
+
+def bench(c: Controller, former: Former, wish: Wish, job: Job[Any]) -> Steps[Bench]:
+    """What a run needs to know, read inside the guards: the torque limit in effect, TM, the room for arrays."""
+    model = ready(c, former.axis)
+    found = yield from exact(c.nonces, [*(f"_{name}{former.axis}" for name in ALL), "_DV" + former.axis, "_TM"],
+                             model.columns)  # fmt: skip
+    values = {name: value or 0 for name, value in zip([*ALL, "DV", "TM"], found, strict=True)}
+    inside = gains_of(values)
+    before = gains_of({**values, **{name: former.values[name] for name in FIELDS}})
+    return Bench(c, model, former, wish, job, inside, before, values["DV"] != 0, abs(values["TM"]) / ONE, c.clock())
+
+
+@dc.dataclass
+class Bench:
+    """One axis between its guards."""
+
+    c: Controller
+    model: Model
+    former: Former
+    wish: Wish
+    job: Job[Any]
+    inside: Gains  # what was in effect when the guards stood: with the torque limit of the run
+    former_gains: Gains
+    dual: bool
+    tm: float
+    began: float
+    trials: int = 0
+
+    @property
+    def axis(self) -> str:
+        return self.former.axis
+
+    def step(self, counts: int, gains: Gains, seconds: float, values: int) -> Steps[Measured]:
+        """One step from rest; the former gains are back before the record is read."""
+        gains = self._with_limits(gains)
+        plan = self._plan(seconds, values, f"IP {at(self.axis, counts)}")
+        yield from self._jog(gains)
+        capture = yield from capture_steps(self.c, plan, self._inner(), during=self._calm_after(plan))
+        self._check()
+        response = self._response(capture, counts)
+        metrics = measure(response, gains.torque_limit)
+        swings = vibrates(response, gains.torque_limit)
+        found = None if isinstance(metrics, str) else metrics
+        words = metrics if isinstance(metrics, str) else measured_words(metrics, swings)
+        return Measured(self.axis, counts, gains, response, found, swings, words, capture)
+
+    def automatic(self, wish: Wish, tell: Told) -> Steps[Found]:
+        """To and fro, with what `search` wants tried next."""
+        trials: list[Measured] = []
+        start = self.former_gains if self.former_gains.kd >= 1 else dc.replace(self.former_gains, kd=64.0, kp=6.0)
+        searching: Search = search(start, self.dual)
+        counts, seen = wish.step, None
+        while True:
+            try:
+                trial = next(searching) if seen is None else searching.send(seen)
+            except StopIteration as end:
+                chosen: Chosen = end.value
+                return Found(chosen.gains, chosen.words, tuple(trials))
+            self._check()
+            self.trials += 1
+            self.job.show(f"trial {self.trials}: {gains_words(trial.gains)}", self.trials, 0)
+            measured = yield from self.step(counts, trial.gains, wish.seconds, TRIAL_VALUES)
+            trials.append(measured)
+            tell(measured, trial.why)
+            counts = -counts  # back and forth (ssc-tol-o-motion.txt l.2857)
+            seen = Seen(measured.metrics, measured.vibrates)
+
+    def excite(self, gains: Gains) -> Steps[Excited]:
+        """Jumps to and fro within the travel while error and torque are recorded."""
+        gains = dc.replace(self._with_limits(gains), fv=0.0, fa=0.0)
+        sample = period(self.tm)
+        if self.dual:
+            return Excited(
+                NotIdentified("The axis works with a dual loop (DV 1): it can be tuned by hand only."), sample, gains
+            )
+        several = min(3, self.model.recorded_channels)
+        elements = min(EXCITED_VALUES, most(self.model, several))
+        wanted = excitation(gains, abs(self.wish.step), elements, several, sample)
+        if isinstance(wanted, NotIdentified):
+            return Excited(wanted, sample, gains)
+        plan = Plan(tuple(Channel(name, self.axis) for name in CHANNELS[:several]), wanted.exponent, wanted.elements)
+        yield from self._jog(gains)
+        capture = yield from capture_steps(self.c, plan, self._inner(), during=self._calm_after(plan, wanted))
+        return Excited(self._recording(capture, gains, wanted), sample, gains)
+
+    # ---- inside
+
+    def _with_limits(self, gains: Gains) -> Gains:
+        """With the limits that hold inside the guards."""
+        limits = ("integrator_limit", "torque_limit", "offset")
+        return dc.replace(gains, **{name: getattr(self.inside, name) for name in limits})
+
+    def _check(self) -> None:
+        not_stopped(self.c, self.began)
+        if self.job.cancelled:
+            raise Cancelled(f"Cancelled. The former values of axis {self.axis} are back.")
+
+    def _inner(self) -> CaptureJob:
+        """A recording's own job: its progress is ours, and so is a cancel."""
+
+        def progress(inner: Job[Capture]) -> None:
+            inner.cancelled = inner.cancelled or self.job.cancelled or self.c.stop_pressed_at >= self.began
+            self.job.show(self.job.phase, inner.done, inner.total)
+
+        return CaptureJob(progress)
+
+    def _jog(self, gains: Gains) -> Steps[None]:
+        """A jog at speed 0 with these gains, at rest for a moment."""
+        self._check()
+        yield from assign(self.c, self.axis, registers(gains))
+        for line in (f"JG{self.axis}=0", f"BG {self.axis}"):
+            answer = yield from proved(self.c.nonces, line, LINE_S, REFUSAL_S)
+            if answer.kind is not Kind.ACCEPTED:
+                raise LinkError(f"The step could not begin: “{line}” was not accepted.")
+        yield Wait(SETTLE_S)
+        yield from self._stands()
+
+    def _stands(self) -> Steps[None]:
+        """The motor is on and the axis does not swing already."""
+        places: list[int] = []
+        for _ in range(4):
+            yield from watch(self.c, self.axis)
+            told = yield from exact(self.c.nonces, [f"_TE{self.axis}"], self.model.columns)
+            places.append((told[0] or 0) // ONE)
+        if max(places) - min(places) > max(QUIET_COUNTS, abs(self.wish.step) // 4):
+            raise Fault(
+                f"Axis {self.axis} swings at rest with these gains (TE between {min(places)} and {max(places)} "
+                "counts). The former gains are back: take less KP or KI."
+            )
+
+    def _plan(self, seconds: float, values: int, go: str) -> Plan:
+        sample = period(self.tm)
+        wanted = (Channel("error", self.axis), Channel("torque", self.axis))  # more would only take longer to read
+        values = min(values, most(self.model, len(wanted)))
+        exponent = next((n for n in range(1, 8) if values * 2**n * sample >= seconds), 8)
+        count = min(values, max(40, math.ceil(seconds / (2**exponent * sample))))
+        return Plan(wanted, exponent, count, go=go)
+
+    def _calm_after(self, plan: Plan, wanted: Excitation | None = None) -> Callable[[], Steps[None]]:
+        """While it is recorded: the jumps; behind it the jog ends and the former gains are back, before any upload."""
+
+        def during() -> Steps[None]:
+            began = self.c.clock()
+            for jump in wanted.steps if wanted is not None else ():
+                self._check()
+                yield Wait(max(jump.at - (self.c.clock() - began), 0.0))
+                yield from proved(self.c.nonces, f"IP {at(self.axis, jump.counts)}", LINE_S, REFUSAL_S)
+            end = began + plan.count * plan.interval_s(self.tm)
+            yield Wait(max(end - self.c.clock(), 0.0))
+            while (yield from exact(self.c.nonces, ["_RC"], self.model.columns))[0]:
+                self._check()
+                if self.c.clock() > end + RECORDED_S:
+                    raise LinkError("The recording did not come to its end.")
+                yield Wait(0.02)
+            yield from self._calm()
+
+        return during
+
+    def _calm(self) -> Steps[None]:
+        yield from watch(self.c, self.axis)
+        yield from assign(self.c, self.axis, {name: self.former.values[name] for name in FIELDS})
+        yield from proved(self.c.nonces, f"ST {self.axis}", LINE_S, REFUSAL_S)
+
+    def _response(self, capture: Capture, counts: int) -> Response:
+        """From 0, with a little rest before the step. The error tells when the step began: it jumps by it."""
+        volts, error = (capture.of(Channel(name, self.axis)) for name in ("torque", "error"))
+        began = int(np.argmax(np.abs(error) > abs(counts) / 2))
+        commanded = np.where(np.arange(len(error)) >= began, float(counts), 0.0)
+        rest = np.zeros(BEFORE)
+        return Response(
+            capture.interval_s,
+            np.concatenate([rest, commanded]),
+            np.concatenate([rest, commanded - error]),
+            np.concatenate([rest + self.inside.offset, volts]),
+        )
+
+    def _recording(self, capture: Capture, gains: Gains, wanted: Excitation) -> Recording:
+        several = len(capture.channels)
+        return Recording(
+            period=period(self.tm),
+            every=capture.interval_samples,
+            gains=gains,
+            error=capture.of(Channel("error", self.axis)),
+            volts=capture.of(Channel("torque", self.axis)),
+            position=capture.of(Channel("position", self.axis)) if several > 2 else None,
+            steps=tuple(jump.counts for jump in wanted.steps),
+        )
+
+
+def measured_words(metrics: Metrics, swings: bool) -> str:
+    """The response in one sentence."""
+    if swings:
+        return "The axis vibrates with these gains: take less KP or KI, or more KD."
+    if metrics.settling_time is None:
+        return "The response did not settle within the record."
+    saturated = f" The torque was at its limit for {metrics.saturated:.0%} of it." if metrics.saturated > 0.01 else ""
+    return (
+        f"Settled within {metrics.settling_time * 1000:.0f} ms, overshoot {metrics.overshoot:.0%}, "
+        f"{metrics.steady_error:.3g} counts of error left.{saturated}"
+    )

@@ -1,0 +1,85 @@
+"""One run of the tuner as the logbook keeps it: gains, response, metrics, what was estimated, the operator's note."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from device.tuning.loop import Gains
+from device.tuning.metrics import Metrics, Response
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+TITLES = {"manual": "Manual", "automatic": "Automatic", "model": "Model-based"}
+TUNED = ("kp", "ki", "kd", "fv", "fa")
+PLACES = 4  # decimals of a kept volt
+
+
+@dc.dataclass(frozen=True, eq=False)
+class Entry:
+    """`number` counts the runs of a machine; `when` is local time; `estimate` holds an identified plant in words."""
+
+    number: int
+    when: str
+    axis: str
+    method: str
+    gains: Gains
+    step: int  # counts
+    response: Response
+    metrics: Metrics | None = None
+    words: str = ""
+    estimate: Mapping[str, float | str] = dc.field(default_factory=dict)
+    note: str = ""
+    controller: str = ""
+
+    @property
+    def title(self) -> str:
+        """As a row of the logbook names it."""
+        return f"{self.number}  {self.axis}  {TITLES.get(self.method, self.method)}"
+
+
+def gains_words(gains: Gains) -> str:
+    """`KP 6, KI 0, KD 64`, and the feed-forwards where they are not 0."""
+    told = {name: getattr(gains, name) for name in TUNED}
+    return ", ".join(f"{name.upper()} {value:g}" for name, value in told.items() if value or name in TUNED[:3])
+
+
+def to_data(entry: Entry) -> dict[str, Any]:
+    """As it stands in the file."""
+    data = {name: getattr(entry, name) for name in ("number", "when", "axis", "method", "step", "words", "note")}
+    response = entry.response
+    return {
+        **data,
+        "controller": entry.controller,
+        "gains": dc.asdict(entry.gains),
+        "metrics": None if entry.metrics is None else dc.asdict(entry.metrics),
+        "estimate": dict(entry.estimate),
+        "period": response.period,
+        "commanded": _kept(response.commanded, 0),
+        "actual": _kept(response.actual, 0),
+        "volts": _kept(response.volts, PLACES),
+    }
+
+
+def from_data(data: Mapping[str, Any]) -> Entry:
+    """What a file says; KeyError, TypeError or ValueError when it is no run."""
+    response = Response(float(data["period"]), _array(data["commanded"]), _array(data["actual"]), _array(data["volts"]))
+    metrics = data["metrics"]
+    return Entry(
+        int(data["number"]), str(data["when"]), str(data["axis"]), str(data["method"]), Gains(**data["gains"]),
+        int(data["step"]), response, None if metrics is None else Metrics(**metrics), str(data["words"]),
+        dict(data["estimate"]), str(data["note"]), str(data["controller"]),
+    )  # fmt: skip
+
+
+def _kept(values: NDArray[np.float64], places: int) -> list[float | None]:
+    return [None if not math.isfinite(value) else round(float(value), places) for value in values]
+
+
+def _array(values: list[float | None]) -> NDArray[np.float64]:
+    return np.array([math.nan if value is None else float(value) for value in values], dtype=np.float64)

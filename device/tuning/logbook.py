@@ -1,0 +1,75 @@
+"""The tuning logbook of one machine: a line of JSON for every run and every note; nothing in it is ever rewritten."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import json
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+from device.tuning.entry import Entry, from_data, to_data
+
+
+class Logbook:
+    """Reads a file once and adds to it; a line that a kill left half is skipped."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self.entries: tuple[Entry, ...] = ()
+        self.skipped = 0  # lines that could not be read
+        self._load()
+
+    def add(self, entry: Entry) -> Entry:
+        """Keeps a run under the next number; raises OSError where the file can not be written."""
+        kept = dc.replace(entry, number=max((each.number for each in self.entries), default=0) + 1)
+        self._append({"run": to_data(kept)})
+        self.entries += (kept,)
+        return kept
+
+    def note(self, number: int, text: str) -> None:
+        """What the operator says about a run; the last note counts."""
+        self._append({"note": number, "text": text})
+        self._noted(number, text)
+
+    def find(self, number: int) -> Entry | None:
+        """The run of that number."""
+        return next((each for each in self.entries if each.number == number), None)
+
+    def _noted(self, number: int, text: str) -> None:
+        self.entries = tuple(dc.replace(each, note=text) if each.number == number else each for each in self.entries)
+
+    def _append(self, data: dict[str, Any]) -> None:
+        self.file.parent.mkdir(parents=True, exist_ok=True)
+        line = json.dumps(data, separators=(",", ":"), ensure_ascii=False).encode() + b"\n"
+        with self.file.open("ab") as file:
+            if file.tell() and not self._ends_whole():
+                file.write(b"\n")
+            file.write(line)
+            file.flush()
+            os.fsync(file.fileno())
+
+    def _ends_whole(self) -> bool:
+        with self.file.open("rb") as file:
+            file.seek(-1, os.SEEK_END)
+            return file.read(1) == b"\n"
+
+    def _load(self) -> None:
+        if not self.file.is_file():
+            return
+        for line in self.file.read_bytes().splitlines():
+            try:
+                data = json.loads(line)
+                if "run" in data:
+                    self.entries += (from_data(data["run"]),)
+                else:
+                    self._noted(int(data["note"]), str(data["text"]))
+            except (ValueError, KeyError, TypeError):
+                self.skipped += 1
+
+
+def file_for(folder: Path, serial: int, name: str, model: str) -> Path:
+    """Where the runs of a machine are kept: by serial number, else by the machine's name in the setup."""
+    key = f"serial {serial}" if serial else name.strip() or model
+    return folder / f"{re.sub(r'[^A-Za-z0-9 _-]', '_', key)}.tuning.jsonl"

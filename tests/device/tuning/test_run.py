@@ -1,0 +1,153 @@
+"""Steps, automatic tuning and excitations over the simulator's byte stream, between their guards."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from codegen.twoletter.fixed import ONE
+from device.download import Job
+from device.tasks import NotAllowed, Stopped
+from device.tuning.automatic import VELOCITY
+from device.tuning.bench import Measured, Wish
+from device.tuning.excite import NotIdentified
+from device.tuning.guards import Cancelled, Fault
+from device.tuning.loop import Gains
+from device.tuning.run import burn, read_present, run_automatic, run_excitation, run_step, use_gains
+from tests.device.tuning.test_guards import WHEN
+from tests.rig import Rig
+
+FACTORY = {"KP": 6.0, "KI": 0.0, "KD": 64.0}
+GOOD = Gains(kp=6, ki=0, kd=64)
+
+
+def ready(kind: str = "simulator", model: str = "ssc2", **more: Any) -> Rig:
+    rig = Rig(kind, model, **more).ready()
+    rig.controller.take_control()
+    rig.type("SH")
+    return rig
+
+
+def done(rig: Rig, job: Job[Any], seconds: float = 60.0) -> Any:
+    rig.until(job.future.done, seconds)
+    return job.future.result()
+
+
+def held(rig: Rig, axis: int = 0) -> dict[str, float]:
+    registers = rig.simulation.unit.state.registers
+    return {name: registers[name][axis] / ONE for name in FACTORY}
+
+
+@pytest.mark.parametrize(("model", "axis"), [("ssc2", "Y"), ("dmc1412", "X")])
+def test_a_step_is_recorded_measured_and_taken_back(tmp_path: Path, model: str, axis: str) -> None:
+    rig = ready(model=model)
+    measured: Measured = done(rig, run_step(rig.controller, Wish(axis, 400, Gains(kp=10, kd=100)), tmp_path, WHEN))
+    response = measured.response
+    assert response.commanded[0] == 0 and response.commanded[-1] == 400
+    assert abs(response.actual[0]) <= 2 and abs(response.actual[-1] - 400) <= 4
+    assert measured.metrics is not None and measured.metrics.step == 400
+    assert measured.metrics.settling_time is not None and 0.005 < measured.metrics.settling_time < 0.4
+    assert np.abs(response.volts).max() <= 10.001
+    assert held(rig) == FACTORY and not list(tmp_path.iterdir())
+    state = rig.simulation.state()["axes"][axis]
+    assert state["commanded"] == 0 and state["motor_on"] and not rig.moving
+    assert any(f"KP{axis}=10" in line for line in rig.lines)
+
+
+def test_gains_that_run_away_end_with_the_motor_off_and_the_former_gains(tmp_path: Path) -> None:
+    rig = ready()
+    with pytest.raises(Fault, match="went off"):
+        done(rig, run_step(rig.controller, Wish("X", 300, Gains(kp=1000, kd=0, ki=100)), tmp_path, WHEN))
+    assert held(rig) == FACTORY and not rig.simulation.state()["axes"]["X"]["motor_on"]
+
+
+def test_a_step_that_no_error_limit_can_hold_is_refused(tmp_path: Path) -> None:
+    rig = ready()
+    for step in (0, 3, 30_000):
+        with pytest.raises(NotAllowed, match="4 to 20000"):
+            done(rig, run_step(rig.controller, Wish("X", step, GOOD), tmp_path, WHEN))
+    assert not rig.sent("OE|KP")
+
+
+def test_stop_in_the_middle_ends_it_and_cancel_too(tmp_path: Path) -> None:
+    rig = ready("machine")
+    job = run_step(rig.controller, Wish("X", 400, Gains(kp=10, kd=100), seconds=2.0), tmp_path, WHEN)
+    rig.until(lambda: abs(rig.simulation.state()["axes"]["X"]["actual"]) > 100)
+    rig.controller.stop()
+    with pytest.raises(Stopped, match="former values of axis X are back"):
+        done(rig, job)
+    assert held(rig) == FACTORY and not rig.moving and not list(tmp_path.iterdir())
+    job = run_step(rig.controller, Wish("X", 400, Gains(kp=10, kd=100), seconds=2.0), tmp_path, WHEN)
+    rig.until(lambda: abs(rig.simulation.state()["axes"]["X"]["actual"]) > 100)
+    job.cancel()
+    with pytest.raises(Cancelled):
+        done(rig, job)
+    assert held(rig) == FACTORY and not list(tmp_path.iterdir())
+
+
+def test_stop_while_the_record_is_read_ends_the_trials(tmp_path: Path) -> None:
+    rig = ready("machine")
+    told: list[Measured] = []
+    job = run_automatic(
+        rig.controller, Wish("X", 400, GOOD), tmp_path, WHEN, lambda m, why: told.append(m), velocity=False
+    )
+    rig.until(lambda: any(line.startswith("QU") for line in rig.lines))
+    rig.controller.stop()
+    with pytest.raises(Stopped):
+        done(rig, job)
+    assert len(told) == 0 and held(rig) == FACTORY and not rig.moving and not list(tmp_path.iterdir())
+
+
+def test_automatic_tuning_makes_it_better_and_puts_the_former_gains_back(tmp_path: Path) -> None:
+    rig = ready()
+    told: list[tuple[Measured, str]] = []
+    wish = Wish("X", 400, GOOD, seconds=0.4)
+    found = done(
+        rig,
+        run_automatic(rig.controller, wish, tmp_path, WHEN, lambda m, why: told.append((m, why)), velocity=False),
+        400,
+    )
+    assert found.gains is not None, found.words
+    assert len(told) == len(found.trials) >= 4 and all(why for _, why in told)
+    assert found.gains.kd >= 64 and found.gains.kp > 6  # KD and KP went up (ssc-tol-o-motion.txt l.2938)
+    assert held(rig) == FACTORY  # recommended, not set
+    first = told[0][0].metrics
+    best = done(rig, run_step(rig.controller, Wish("X", 400, found.gains, seconds=0.4), tmp_path, WHEN))
+    assert first is not None and best.metrics is not None and best.metrics.settling_time is not None
+    assert best.metrics.settling_time < (first.settling_time or 1.0) and not best.vibrates
+
+
+def test_never_on_a_drive_in_velocity_mode(tmp_path: Path) -> None:
+    rig = ready()
+    job = run_automatic(rig.controller, Wish("X", 400, GOOD), tmp_path, WHEN, lambda m, why: None, velocity=True)
+    with pytest.raises(NotAllowed, match="do not perform an auto tune"):
+        done(rig, job)
+    assert "proceed to manual tuning" in VELOCITY and not rig.sent("OE|KP")
+
+
+def test_an_excitation_stays_within_the_step(tmp_path: Path) -> None:
+    rig = ready()
+    furthest: list[float] = []
+    job = run_excitation(rig.controller, Wish("X", 200, GOOD), tmp_path, WHEN)
+    while not job.future.done():
+        rig.run(0.01)
+        furthest.append(abs(rig.simulation.state()["axes"]["X"]["commanded"]))
+    excited = job.future.result()
+    assert not isinstance(excited.recording, NotIdentified), excited.recording
+    assert 4 <= max(furthest) <= 200
+    assert len(excited.recording.error) >= 64 and np.ptp(excited.recording.error) > 4
+    assert held(rig) == FACTORY and not list(tmp_path.iterdir())
+
+
+def test_gains_are_used_and_burned_only_when_asked(tmp_path: Path) -> None:
+    rig = ready()
+    present = rig.result(read_present(rig.controller, "X"))
+    assert (present.gains.kp, present.gains.kd, present.motor_on, present.dual) == (6, 64, True, False)
+    assert "nothing was burned" in rig.result(use_gains(rig.controller, "X", Gains(kp=12.5, ki=0.25, kd=90)))
+    assert held(rig) == {"KP": 12.5, "KI": 0.25, "KD": 90}
+    assert not rig.sent("BN")
+    assert rig.result(burn(rig.controller, "X", Gains(kp=13, kd=90))).accepted
+    assert held(rig)["KP"] == 13 and rig.sent("BN")
