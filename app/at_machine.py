@@ -11,6 +11,7 @@ from app.event_list import Happened
 from app.ghosts import Ghosts
 from app.operator import Operator
 from app.points import Points
+from app.recorder import Recorded
 from app.search import Candidate
 from app.variables import Variables
 from app.window import BOTTOM, RIGHT
@@ -19,6 +20,7 @@ from widgets.jog.panel import JogPanel
 from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
 from widgets.plane.panel import PlanePanel
+from widgets.recorder.panel import RecorderPanel
 from widgets.values.panel import ValuesPanel
 
 if TYPE_CHECKING:
@@ -44,10 +46,15 @@ class AtMachine:
         self.ghosts = Ghosts(studio.display, self.plane, self.jog, studio.ear.homed_axes)
         self.ghosts.sources.append(self.by_hand.ghost)
         tick.each(self.ghosts.look)
+        self.tape = RecorderPanel()
+        self.recorded = Recorded(studio, studio.recorder, self.tape, studio.files.folder)
+        self.recorded.said.connect(studio.desk.say)
+        self.happened.recording = self.recorded.kept
         self.event_list.line_wanted.connect(studio.ear.reveal)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (
             self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
+            self.tape, self.recorded.ear,
         )  # fmt: skip
         self.docks = (
             ("Jog", self.jog, RIGHT),
@@ -55,4 +62,5 @@ class AtMachine:
             ("Operator terminal", self.keys, RIGHT),
             ("Variables", self.values, BOTTOM),
             ("Events", self.event_list, BOTTOM),
+            ("Recorder", self.tape, BOTTOM),
         )

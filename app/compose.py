@@ -44,7 +44,8 @@ from codegen.document import Document
 from codegen.generate import Listing
 from codegen.setup import Setup
 from codegen.slowed import PERCENTS
-from device.api import Controller
+from device.api import Controller, Kind
+from device.recorder import Recorder
 from widgets.display.display import DisplayPanel
 from widgets.display.messages import MessagesPanel
 from widgets.panel import Panel
@@ -55,6 +56,9 @@ from widgets.terminal.terminal import TerminalPanel
 if TYPE_CHECKING:
     from app.at_machine import AtMachine
     from app.backup_part import BackupPart
+
+
+RECORDINGS = "recordings"  # the folder of the recorder
 
 
 class Studio(QObject):
@@ -70,16 +74,18 @@ class Studio(QObject):
         pages: Mapping[str, str],
         clock: Callable[[], float] = time.monotonic,
         seek: Connector | None = None,
+        recorder: Recorder | None = None,
     ) -> None:
         super().__init__()
+        self.recorder = recorder or Recorder(data / RECORDINGS, clock=clock, threaded=False)
         self.settings = settings
         self.theme = Theme(application, Choice(settings.get("theme")))
         self.session = Session(Document(setup=last_setup(data) or Setup()), recovery_folder=data / "recovery")
         self.connection = Connection(connect, Controller.offline, self)
-        self.tick = Tick(self)
+        self.tick, self.clock = Tick(self), clock
         self.program = ProgramView(self.session)
         self.window = Window(self.program)
-        self.display, self.messages = DisplayPanel(clock=clock), MessagesPanel()
+        self.display, self.messages = DisplayPanel(clock=self.now), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
         self.files = Files(self.session, settings, self.desk.ask, self.window)
@@ -113,12 +119,17 @@ class Studio(QObject):
         self.program.live = LiveValuesReader(self.connection, self.tick)
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
-        self._clock, self._ports = clock, ports
+        self._ports = ports
         self.panels: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
         self._fill_window()
         self._join()
         self._attach(self.connection.controller)
         self._document_changed(None, self.session.document)
+
+    def now(self) -> float:
+        """The time by which live values get old: a replay's own, which stands still with it."""
+        controller = self.connection.controller
+        return controller.clock() if controller.kind is Kind.REPLAY else self.clock()
 
     def model(self) -> str:
         """The controller model the open program is for."""
@@ -129,6 +140,7 @@ class Studio(QObject):
         self.tick.stop()
         self.search.cancel()
         self.connection.close()
+        self.recorder.close()
         self.crash.uninstall()
         self.stop_key.remove()
         self.theme.release()
@@ -145,7 +157,8 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(self._bring, "X-Y view"), "operator": partial(self._bring, "Operator terminal"),
-            "events": partial(self._bring, "Events"),
+            "events": partial(self._bring, "Events"), "recorder": partial(self._bring, "Recorder"),
+            "open_recording": self._open_recording,
             "editor": self.editor.show,
             "jog": partial(self._bring, "Jog"), "variables": partial(self._bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
@@ -227,7 +240,7 @@ class Studio(QObject):
         """Jog, X-Y view, variables, events, operator terminal; made with the first tick, as they open later."""
         from app.at_machine import AtMachine
 
-        made = AtMachine(self, self._data, self._clock, self._ports)
+        made = AtMachine(self, self._data, self.now, self._ports)
         self.panels += made.panels
         for panel in made.panels:
             self.tick.add(panel)
@@ -325,6 +338,10 @@ class Studio(QObject):
         """A panel that may have to be made first."""
         self._make_panels()
         self.desk.bring(title)
+
+    def _open_recording(self) -> None:
+        self._bring("Recorder")
+        self.at_machine.recorded.ask_open()
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

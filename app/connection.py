@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -15,6 +16,7 @@ from device.api import Controller, Kind
 from device.transport import LineSettings, OpenFailed, Transport, open_transport
 
 if TYPE_CHECKING:
+    from device.recorder import Recorder
     from device.simulator.process import SimulatorProcess
 
 SIMULATOR = "simulator:"
@@ -32,10 +34,11 @@ class World(Protocol):
 
 @dataclass(frozen=True)
 class Opened:
-    """A controller on its way, and the world around it when it is simulated."""
+    """A controller on its way, the world around it when it is simulated, and where its line is recorded."""
 
     controller: Controller
     world: World | None = None
+    channel: int = 0
 
 
 class Connector(Protocol):
@@ -53,7 +56,7 @@ class Connection(QObject):
         super().__init__(parent)
         self._connect = connect
         self._offline = offline
-        self.address = ""
+        self.address, self.channel = "", 0
         self.world: World | None = None
         self.controller = offline()
 
@@ -73,7 +76,7 @@ class Connection(QObject):
     def adopt(self, opened: Opened, address: str) -> None:
         """Works with a controller that is open already."""
         before, self.controller = self.controller, opened.controller
-        self.world, self.address = opened.world, address
+        self.world, self.address, self.channel = opened.world, address, opened.channel
         self.changed.emit(self.controller)
         before.leave()
 
@@ -150,21 +153,36 @@ class Simulated:
             self._process.close()
 
 
-def connector(programs: Path, idle_s: Callable[[], float], known: Callable[[], dict[int, str]] = dict) -> Connector:
+def connector(
+    programs: Path,
+    idle_s: Callable[[], float],
+    known: Callable[[], dict[int, str]] = dict,
+    recorder: Recorder | None = None,
+) -> Connector:
     """Opens real lines and starts simulators; programs found in a controller are kept in `programs`."""
 
     def connect(address: str, line: LineSettings) -> Opened:
         if not address.startswith(SIMULATOR):
+            opener, number = recorded(recorder, partial(open_transport, address, line))
             more = {"program_folder": programs, "idle_limit_s": idle_s(), "known_models": known()}
-            return Opened(Controller.connect(address, line, **more))
+            return Opened(Controller(opener, kind=Kind.MACHINE, line=line, **more), channel=number)
         name = address.removeprefix(SIMULATOR)
         world = Simulated(name, line)
+        opener, number = recorded(recorder, world.open)
         controller = Controller(
-            world.open, kind=Kind.SIMULATOR, line=line, model=MODELS.get(name), program_folder=programs, own=world
+            opener, kind=Kind.SIMULATOR, line=line, model=MODELS.get(name), program_folder=programs, own=world
         )
-        return Opened(controller, world)
+        return Opened(controller, world, number)
 
     return connect
+
+
+def recorded(recorder: Recorder | None, opener: Callable[[], Transport]) -> tuple[Callable[[], Transport], int]:
+    """The same line with all its bytes recorded, and the number of its channel."""
+    if recorder is None:
+        return opener, 0
+    channel = recorder.channel()
+    return channel.tap(opener), channel.number
 
 
 class Probed:
@@ -186,19 +204,26 @@ class Probed:
         return open_transport(self._address, self._line)
 
 
-def seeker(programs: Path, idle_s: Callable[[], float], known: Callable[[], dict[int, str]] = dict) -> Connector:
+def seeker(
+    programs: Path,
+    idle_s: Callable[[], float],
+    known: Callable[[], dict[int, str]] = dict,
+    recorder: Recorder | None = None,
+) -> Connector:
     """As `connector`, for ports that may have something else behind them."""
 
     def connect(address: str, line: LineSettings) -> Opened:
+        opener, number = recorded(recorder, Probed(address, line).open)
         return Opened(
             Controller(
-                Probed(address, line).open,
+                opener,
                 kind=Kind.MACHINE,
                 line=line,
                 program_folder=programs,
                 idle_limit_s=idle_s(),
                 known_models=known(),
-            )
+            ),
+            channel=number,
         )
 
     return connect

@@ -6,7 +6,7 @@ import json
 import platform
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from io import BytesIO
 from pathlib import Path
@@ -23,6 +23,7 @@ from codegen.files import dumps, setup_dumps
 from device.api import EventList, Kind
 from device.events import EventFile
 from device.events_heard import EventsHeard
+from device.recorder_read import IN_BUNDLE
 from widgets.events.panel import EventsPanel
 from widgets.panel import Panel
 from widgets.parts.files import ask_save
@@ -40,6 +41,7 @@ setup.tls      the setup alone
 controller.dmc the program that was last read from the controller, where it is known
 versions.txt   versions, operating system, controller
 window.png     the window as it was
+recording.tlr  the last hours: all bytes of the line, what was done; File > Open recording or bundle plays it
 back-up.tlb    the newest back-up of this controller, where there is one
 """
 
@@ -57,12 +59,12 @@ class Ear(Panel):
         self._heard.begin(controller)
 
     def notice(self, notice: Notice) -> None:
-        if self.controller is not None:
+        if self.controller is not None and self.controller.kind is not Kind.REPLAY:
             self._heard.happened(self.controller, notice)
 
     def look(self) -> None:
         """With each tick."""
-        if self.controller is not None and self.controller.kind is not Kind.OFFLINE:
+        if self.controller is not None and self.controller.kind in (Kind.MACHINE, Kind.SIMULATOR):
             self._heard.look(self.controller)
 
 
@@ -83,6 +85,7 @@ class Happened(QObject):
         super().__init__(window)
         self._connection, self._session, self._window = connection, session, window
         self._data = data
+        self.recording: Callable[[], bytes] = lambda: b""  # everything that is recorded
         self.events = EventList(EventFile(data / "events.jsonl"))
         self.ear = Ear(EventsHeard(self.events))
         self._writing: threading.Thread | None = None
@@ -150,7 +153,7 @@ class Happened(QObject):
         newest = next(iter(kept(folder)), None) if folder is not None else None
         backup = newest.path if newest is not None else None
         try:
-            path.write_bytes(zipped(parts, backup))
+            path.write_bytes(zipped({**parts, IN_BUNDLE: self.recording()}, backup))
             self._result = f"Service bundle saved: {path}"
         except OSError as reason:
             self._result = f"The service bundle was not saved: {reason.strerror or reason} ({path})"

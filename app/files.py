@@ -66,10 +66,10 @@ class Files(QObject):
             f"{path.name} is open in another Twoletter Studio: {user}. "
             "Whoever saves last overwrites what the other has saved."
         )
-        answers = (("Open a copy", partial(self._open_copy, path)), ("Open it anyway", partial(self._open_path, path)))
+        answers = (("Open a copy", partial(self.open_copy, path)), ("Open it anyway", partial(self._open_path, path)))
         self._ask("Somebody else works on this file", words, answers, "warning")
 
-    def _open_copy(self, path: Path) -> None:
+    def open_copy(self, path: Path) -> None:
         """What the file holds now, without its name: Save asks for one."""
         try:
             self._session.open_copy(path)
@@ -185,7 +185,7 @@ class Files(QObject):
                 program = load(path).program
                 words = f"{program.name} – {program.description}" if program.description else program.name
                 action = menu.addAction(words.replace("&", "&&"))
-                action.triggered.connect(partial(self.careful, "Open an example?", partial(self._open_copy, path)))
+                action.triggered.connect(partial(self.careful, "Open an example?", partial(self.open_copy, path)))
 
     @property
     def recent(self) -> list[Path]:

@@ -11,12 +11,13 @@ from PySide6.QtCore import QLocale, QTimer
 from PySide6.QtWidgets import QApplication
 
 import resources
-from app.compose import Studio
+from app.compose import RECORDINGS, Studio
 from app.connection import connector, seeker
 from app.help_pages import Pages
 from app.search import Candidate
 from app.settings import Settings, data_folder, settings_path
 from app.which_model import known_models
+from device.recorder import Recorder
 
 SAMPLE = "examples/wire-cutter.tlp"
 SETTLED_MS = 5000  # after this the start is over
@@ -30,10 +31,11 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
     application.setApplicationName("Twoletter Studio")
     settings = Settings(settings_path())
     folder = data_folder()
+    recorder = Recorder(folder / RECORDINGS)
     idle_s, known = partial(_idle_s, settings), partial(known_models, settings)
-    connect_to = connector(folder / "programs", idle_s, known)
-    seek = seeker(folder / "programs", idle_s, known)
-    studio = Studio(application, settings, folder, connect_to, list_ports, Pages(), seek=seek)
+    connect_to = connector(folder / "programs", idle_s, known, recorder)
+    seek = seeker(folder / "programs", idle_s, known, recorder)
+    studio = Studio(application, settings, folder, connect_to, list_ports, Pages(), seek=seek, recorder=recorder)
     studio.crash.install()
     studio.window.show()
     studio.tick.start()

@@ -20,6 +20,7 @@ from app.search import Candidate
 from app.settings import Settings
 from app.which_model import known_models
 from device.api import Badge, Controller, Kind, LineSettings, State
+from device.recorder import Recorder
 from device.transport import Transport
 from device.transport.loopback import Loopback
 from tests.rig import Rig
@@ -103,8 +104,10 @@ class Stage:
 
     def connect(self, kind: str = "simulator", model: str = "ssc2", answers: bool = True, **more: Any) -> Rig:
         """Another machine, in the situation that is asked for; waits until it has answered."""
-        rig = self.clock.add(Rig(kind, model, began=self.clock.now, **more))
-        self.studio.connection.adopt(Opened(rig.controller, SimulatedWorld(rig) if kind == "simulator" else None), kind)
+        channel = self.studio.recorder.channel()
+        rig = self.clock.add(Rig(kind, model, began=self.clock.now, tap=channel.wrap, **more))
+        world = SimulatedWorld(rig) if kind == "simulator" else None
+        self.studio.connection.adopt(Opened(rig.controller, world, channel.number), kind)
         if answers:
             self.until(lambda: rig.controller.state is State.READY)
         return rig
@@ -188,8 +191,11 @@ def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.
     clock, silent = Clock(), set[str]()
     ports = [Candidate("/dev/ttyUSB0", "USB serial adapter", False)]
 
+    recorder = Recorder(folder / "recordings", clock=clock, threaded=False)
+
     def connect(address: str, line: LineSettings) -> Opened:
         simulated = address.startswith("simulator:")
+        channel = recorder.channel()
         rig = Rig(
             Kind.SIMULATOR if simulated else Kind.MACHINE,
             address.partition(":")[2] if simulated else "ssc2",
@@ -197,11 +203,14 @@ def make_studio(folder: Path, theme: str = "light", example: str = "wire-cutter.
             began=clock.now,
             silent=address in silent,
             known_models=known_models(settings),
+            tap=channel.wrap,
         )
         clock.add(rig)
-        return Opened(rig.controller, SimulatedWorld(rig) if simulated else None)
+        return Opened(rig.controller, SimulatedWorld(rig) if simulated else None, channel.number)
 
-    studio = Studio(application, settings, folder, connect, lambda: list(ports), Pages(), clock=clock)
+    studio = Studio(
+        application, settings, folder, connect, lambda: list(ports), Pages(), clock=clock, recorder=recorder
+    )
     if example:  # a copy: whatever is clicked, the one that is shipped stays as it is
         studio.session.open(Path(shutil.copy(resources.path(f"examples/{example}"), folder)))
     return Stage(studio, clock, ports, silent)

@@ -113,7 +113,7 @@ def test_tab_walks_through_the_window_and_comes_back(stage: Stage) -> None:
     stage.studio.program.tree.setFocus()
     seen: list[QWidget] = []
     widget: QWidget = stage.studio.program.tree
-    for _ in range(400):
+    for _ in range(2000):
         nxt = widget.nextInFocusChain()
         if nxt is stage.studio.program.tree:
             break

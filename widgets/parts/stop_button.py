@@ -47,6 +47,7 @@ class StopButton(QAbstractButton):
         headline, below = TEXTS[self._state]
         if self._state is StopState.NOT_CONFIRMED:
             return headline, below
+        below = "nothing to stop" if self._kind is Kind.REPLAY else below
         return headline, f"{WORDS[self._kind]} · {below}"
 
     def show_state(self, kind: Kind, state: StopState) -> None:

@@ -1,0 +1,228 @@
+"""The recorder in the studio: what was recorded is played by mouse and keys, in the windows, and nothing is sent."""
+
+from __future__ import annotations
+
+import time
+import zipfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QPushButton
+
+from device.api import Kind, State, StopState
+from device.recorder_play import DID
+from device.recorder_read import Recording, joined
+from tests.stage import Stage, make_studio
+from widgets.recorder.panel import EMPTY, RecorderPanel
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+def panel_of(stage: Stage) -> RecorderPanel:
+    return stage.studio.at_machine.tape
+
+
+def wait(stage: Stage, true: Callable[[], object], seconds: float = 15.0) -> None:
+    """A replay has a thread of its own: real time passes, and as much on the stage."""
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.005)
+        stage.go(1)
+
+
+def recorded(stage: Stage) -> None:
+    """Some seconds of work: connected, a switch flipped, an axis moved, a text, a stop."""
+    stage.connect("simulator", "ssc2")
+    stage.go(10)
+    stage.type("SH X", "PR 5000", "SP 1000", "BG X")
+    stage.rig.start('#A\nMG "PART 7"\nEN')
+    stage.go(60)
+    stage.controller.stop()
+    stage.until(lambda: stage.controller.stop_state is StopState.STOPPED)
+    stage.go(10)
+
+
+def replay(stage: Stage) -> None:
+    """By the button of the panel."""
+    stage.studio.desk.bring("Recorder")
+    stage.go()
+    QTest.mouseClick(panel_of(stage).replay, LEFT)
+    wait(stage, lambda: stage.controller.kind is Kind.REPLAY and stage.controller.state is State.READY)
+
+
+def done(stage: Stage) -> list[str]:
+    stage.studio.recorder.flush()
+    notes = Recording(joined(stage.studio.recorder.files())).notes
+    return [str(note.payload) for note in notes if note.kind == DID]
+
+
+def test_what_was_recorded_is_played_and_shown(stage: Stage) -> None:
+    assert EMPTY in panel_of(stage).words()
+    recorded(stage)
+    studio, panel = stage.studio, panel_of(stage)
+    replay(stage)
+    assert "REPLAY" in studio.window.windowTitle()
+    assert studio.window.header.stop.words == ("STOP", "REPLAY · nothing to stop")
+    assert studio.window.docks["Display"].frame.text == "REPLAY"
+    wait(stage, lambda: stage.controller.last().value("position.x") > 1500)
+    wait(stage, lambda: sum("PART 7" in text for text in studio.messages.texts()) == 2)  # then, and again
+    words = panel.words()
+    assert (
+        "You | Terminal: PR 5000" in words and "Machine | Connected to" in words and "Machine | STOP: stopped" in words
+    )
+    wait(stage, lambda: panel.play.text() != "Pause", 60)  # it has come to its end
+    QTest.mouseClick(panel.leave, LEFT)
+    stage.go()
+    assert stage.controller.kind is Kind.OFFLINE and not panel.table.isVisible()
+
+
+def test_nothing_is_sent_and_there_is_nothing_to_stop(stage: Stage) -> None:
+    recorded(stage)
+    rig = stage.rig
+    replay(stage)
+    closed = len(rig.loopback.written)
+    studio = stage.studio
+    actions = studio.actions.actions
+    for name in ("download", "execute", "halt", "burn", "upload", "take_control"):
+        assert not actions[name].isEnabled(), name
+        assert "recording" in actions[name].statusTip(), name
+    studio.desk.bring("Terminal")
+    stage.go()
+    studio.terminal.line.setText("PR 100")
+    QTest.mouseClick(studio.terminal.send, LEFT)
+    wait(stage, lambda: "recording" in studio.terminal.log.toPlainText())
+    QTest.keyClick(studio.window, Qt.Key.Key_F12)
+    wait(stage, lambda: any("There is nothing to stop" in text for text in studio.messages.texts()))
+    assert len(rig.loopback.written) == closed and stage.controller.stop_state is StopState.NO_LINK
+
+
+def test_the_slider_the_list_and_the_speed_by_keys(stage: Stage) -> None:
+    recorded(stage)
+    replay(stage)
+    panel = panel_of(stage)
+    player = stage.studio.at_machine.recorded.player
+    assert player is not None
+    QTest.mouseClick(panel.play, LEFT)
+    stage.go()
+    assert not player.playing and panel.play.text() == "Play"
+    panel.slider.setFocus()
+    QTest.keyClick(panel.slider, Qt.Key.Key_Home)
+    QTest.keyClick(panel.slider, Qt.Key.Key_Right)
+    QTest.keyClick(panel.slider, Qt.Key.Key_Right)
+    stage.go()
+    assert stage.studio.at_machine.recorded.player is not None
+    assert stage.studio.at_machine.recorded.player.place == pytest.approx(2.0, abs=0.01)  # a second each
+    assert "0:00:02 of" in panel.where.text()
+    row = next(n for n, each in enumerate(panel.rows) if "BG X" in each.text)
+    panel.search.setText("bg x")
+    assert [each.text for each in panel.rows] == ["Terminal: BG X"]
+    panel.search.clear()
+    panel.table.setFocus()
+    panel.table.setCurrentCell(row, 0)
+    QTest.keyClick(panel.table, Qt.Key.Key_Return)
+    stage.go()
+    place = stage.studio.at_machine.recorded.player.place
+    assert place == pytest.approx(panel.rows[row].place, abs=0.01)
+    wait(stage, lambda: stage.controller.last().value("position.x") == 0)  # the move begins there
+    panel.speed.setFocus()
+    QTest.keyClick(panel.speed, Qt.Key.Key_Down)
+    assert stage.studio.at_machine.recorded.player.speed == 2.0
+    wait(stage, lambda: stage.controller.last().has("position.x"))
+    stage.studio.desk.bring("Display")
+    stage.go()
+    shown = stage.studio.display.words()
+    stage.later(60)  # it stands still, so nothing gets old
+    stage.go()
+    assert stage.studio.display.words() == shown and "ago" not in shown
+
+
+def test_what_is_done_is_noted_in_words(stage: Stage) -> None:
+    stage.connect("simulator", "ssc2")
+    studio = stage.studio
+    stage.type("TP")
+    studio.actions["layout_run"].trigger()
+    studio.desk.bring("Events")
+    stage.go()
+    QTest.keyClicks(studio.at_machine.event_list.search, "limit")
+    QTest.keyClick(studio.at_machine.event_list.search, Qt.Key.Key_Return)
+    studio.desk.ask("Which one?", "Two are there.", [("The first", lambda: None)])
+    stage.go()
+    assert studio.desk.question is not None
+    button = next(each for each in studio.desk.question.findChildren(QPushButton) if each.text() == "The first")
+    button.setFocus()
+    stage.go()
+    QTest.mouseClick(button, LEFT)
+    from codegen.instructions import Wait
+
+    studio.session.insert([Wait(time="20")])
+    stage.go()
+    found = done(stage)
+    assert "Terminal: TP" in found and "Layout: Run" in found and "Events: Search events = limit" in found
+    assert any(each.startswith("Program: ") for each in found)
+    assert any(each.endswith("The first") for each in found), found
+
+
+@pytest.fixture
+def other(tmp_path: Path, qapp: QApplication) -> Iterator[Stage]:
+    """Another studio, of somebody who helps."""
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    made = make_studio(folder, example="")
+    made.studio.window.show()
+    made.go()
+    yield made
+    made.clear_away()
+
+
+def test_a_bundle_from_one_studio_opens_in_another(stage: Stage, other: Stage, tmp_path: Path) -> None:
+    recorded(stage)
+    path = tmp_path / "service.zip"
+    happened = stage.studio.at_machine.happened
+    happened.save_bundle(path)
+    stage.until(lambda: happened._writing is None)
+    with zipfile.ZipFile(path) as bundle:
+        assert "recording.tlr" in bundle.namelist()
+    other.studio.actions["open_recording"].trigger()  # asks for a file; the panel is in front
+    other.go()
+    assert panel_of(other).isVisible()
+    other.studio.at_machine.recorded.open_path(path)
+    wait(other, lambda: other.controller.kind is Kind.REPLAY and other.controller.state is State.READY)
+    assert other.controller.identity == stage.controller.identity and "service.zip" in panel_of(other).state.text()
+    wait(other, lambda: other.controller.last().value("position.x") > 500)
+    question = other.studio.desk.question
+    assert question is not None
+    button = next(each for each in question.findChildren(QPushButton) if each.text() == "Open the program")
+    QTest.mouseClick(button, LEFT)
+    other.go()
+    assert other.studio.session.document == stage.studio.session.document and other.studio.session.path is None
+
+
+def test_what_can_not_be_opened_is_said(stage: Stage, tmp_path: Path) -> None:
+    studio = stage.studio
+    studio.desk.bring("Recorder")
+    letter = tmp_path / "letter.txt"
+    letter.write_text("Dear Sir")
+    said: list[str] = []
+    studio.at_machine.recorded.said.connect(said.append)
+    studio.at_machine.recorded.open_path(letter)
+    wait(stage, lambda: said)
+    assert said == [
+        "letter.txt is no recording and no service bundle; choose a file ending in .tlr or a service bundle (.zip)."
+    ]
+    recorded(stage)
+    studio.recorder.flush()
+    stage.type("TP")
+    saved = tmp_path / "day.tlr"
+    studio.at_machine.recorded.save(saved)
+    wait(stage, saved.is_file)
+    wait(stage, lambda: studio.at_machine.recorded._working is None)
+    data = bytearray(saved.read_bytes())
+    data[-40] ^= 1
+    saved.write_bytes(data)
+    studio.at_machine.recorded.open_path(saved)
+    wait(stage, lambda: stage.controller.kind is Kind.REPLAY)
+    assert panel_of(stage).problem.text() == "A piece of day.tlr can not be read; what is whole is played."
