@@ -107,6 +107,16 @@ class Ring:
         """When each value of `tail` was read."""
         return self._newest(self._times, count) if self._count else self._unread()[:0]
 
+    def since(self, count: int) -> tuple[int, NDArray[np.float64], NDArray[np.float64]]:
+        """Rows written after the first `count` as far as they are still here: the new count, values, times."""
+        import numpy as np
+
+        end = self._count
+        if not end:
+            return 0, self._unread()[:0], self._unread()[:0]
+        places = np.arange(max(count, end - self._size + 1, 0), end) % self._size
+        return end, self._values[places], self._times[places]
+
     def _unread(self) -> NDArray[np.float64]:
         import numpy as np
 

@@ -25,7 +25,7 @@ MAY = {
         THREADS,
         (
             *("widgets", "codegen", "resources", "device.api", "device.capture", "device.curves", "device.jog"),
-            *("device.live", "device.terminal1500"),
+            *("device.live", "device.roll", "device.terminal1500"),
         ),
     ),
 }
