@@ -114,6 +114,8 @@ ROWS: tuple[Row, ...] = (
     Row("display", "Display", "Machine", "Positions, inputs, outputs and switches", "Alt+3", "display", "main",
         "Display"),
     Row("jog", "Jog", "Machine", "Move axes by hand", "Alt+6", "jog", "main", "Jog"),
+    Row("commissioning", "Bring an axis to life…", "Machine",
+        "A new axis, step by step: enable, encoder, switches, limits, polarity, scale, report", "", "machine"),
     Row("plane", "X-Y view", "Machine", "The way of two axes from above", "Alt+4", "measure"),
     Row("operator", "Operator terminal", "Machine", "The terminal at port 2 of the controller", "Alt+5", "operator"),
     Row("variables", "Variables", "Machine", "Variables and arrays of the controller", "Alt+7", "program"),

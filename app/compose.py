@@ -56,6 +56,7 @@ from widgets.terminal.terminal import TerminalPanel
 if TYPE_CHECKING:
     from app.at_machine import AtMachine
     from app.backup_part import BackupPart
+    from app.commissioning import Commissioning
 
 
 RECORDINGS = "recordings"  # the folder of the recorder
@@ -160,6 +161,7 @@ class Studio(QObject):
             "events": partial(self._bring, "Events"), "recorder": partial(self._bring, "Recorder"),
             "open_recording": self._open_recording,
             "editor": self.editor.show,
+            "commissioning": lambda: self.commissioning.show(),
             "jog": partial(self._bring, "Jog"), "variables": partial(self._bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial, "doctor": self.doctor.show,
@@ -201,6 +203,7 @@ class Studio(QObject):
             self.follow.look,
             self.setup.look,
             lambda: self.proof.look(self.follow.known),
+            self._look_commissioning,
             lambda: self.editor.look(self.follow.known),
             self.which.look,
             self.met.look,
@@ -262,6 +265,23 @@ class Studio(QObject):
         proof.backups.act.connect(lambda name: self.actions[name].trigger())
         proof.said.connect(self.desk.say)
         return proof
+
+    @cached_property
+    def commissioning(self) -> Commissioning:
+        """Bringing an axis to life; made when it is wanted, or when an interrupted step may have left something."""
+        from app.commissioning import Commissioning
+
+        made = Commissioning(
+            self.connection, self.session, self.tick, self.desk.ask, lambda: self.follow.known, self._data, self.window
+        )
+        made.said.connect(self.desk.say)
+        made.help_wanted.connect(self.desk.show_help)
+        return made
+
+    def _look_commissioning(self) -> None:
+        made = "commissioning" in self.__dict__
+        if made or (self.connection.controller.control and (self._data / "commissioning").is_dir()):
+            self.commissioning.look()
 
     def _join_window(self) -> None:
         window = self.window

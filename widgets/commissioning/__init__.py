@@ -1,0 +1,1 @@
+"""The window that brings an axis to life."""
