@@ -8,6 +8,7 @@ unit, places are the nearest ones that are whole in both; what is missing is car
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Iterator
 from enum import StrEnum
 from fractions import Fraction
@@ -58,6 +59,7 @@ class Stage:
     last: int
     instructions: tuple[Instruction, ...]
     end: tuple[int, int] | None = None
+    slack: int = 0  # counts that the end of an arc may be away from there
 
 
 def stages(table: Table, setup: Setup) -> tuple[Stage, ...]:
@@ -124,8 +126,15 @@ class _Stages:
                 self.at = there
         if not pieces:
             return
-        end = counts_of(self.table.rows[chain[-1]], self.setup)
-        yield Stage(Kind.PATH, chain[0], chain[-1], (self._instruction(pieces, rows),), end)
+        end = int(self.at[0]), int(self.at[1])
+        yield Stage(Kind.PATH, chain[0], chain[-1], (self._instruction(pieces, rows),), end, self._slack(pieces[-1]))
+
+    def _slack(self, last: Piece) -> int:
+        """Both angles of an arc are whole grains, its radius whole counts."""
+        if last.shape is not Shape.ARC:
+            return 0
+        counts = float(exact(last.radius)) * float(max(self.scales))
+        return math.ceil(counts * math.radians(2 / 256) + 2 * float(max(self.grain)))
 
     def _instruction(self, pieces: list[Piece], rows: list[Row]) -> Instruction:
         first = rows[0]

@@ -12,7 +12,7 @@ A jog panel needs no more than this (`motion` is `controller.motion`; nothing he
 * Several axes at speeds that change: `motion.drive({"X": v, "Y": v}, ac, dc, owner="stick")` with ramps by axis, then
   `motion.steer("stick", {…})` whenever the hand moves (0, or not named: that axis stops), `renew` and `release` as
   above. `along` names live values that are read meanwhile. The future ends with a `Drove`.
-* `motion.undertake(going)` is for work of several moves in one hand (`device.teach`).
+* `motion.undertake(make)` is for work of several moves in one hand (`device.teach`).
 * Everything else is a plan of `device.jog` (`by`, `to`, `line`, `arc`, `home`, `zero`): show `plan.ghost(places)` as
   the marker and `plan.passes(places)` before the start, then `motion.go(plan, owner=…, homed=letters)`. `places` come
   from `motion.look(axes)`, or from the live row (`commanded.x`) with `Places(…).narrowed(setup)`. `go` looks afresh:
@@ -28,7 +28,7 @@ drives. STOP ends everything here; nothing starts again by itself.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from functools import partial
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 T = TypeVar("T")
+G = TypeVar("G", bound="Going")
 FEWEST_COLUMNS = 31  # of a poll while somebody holds: one value
 SHARE_S = 0.03  # of the line, one way, that a poll may take then
 ONE_HAND = "is moved by hand already ({}); let go there first."
@@ -267,10 +268,13 @@ class Motion:
         going = Going(plan, owner, self._exchange())
         return self._begin(going, self._checked(going, frozenset(homed), confirmed), Priority.USER)
 
-    def undertake(self, going: Going) -> Future[Any]:
-        """Several moves of one hand; refused like one of them, ended like one."""
+    def undertake(self, make: Callable[[Exchange, Callable[[str], str]], G]) -> tuple[G, Future[Any]]:
+        """Several moves of one hand, made with what they need: refused like one move, ended like one."""
+        going = make(self._exchange(), self._endangered)
         problem = going.plan.problem or self._objection(going.plan.axes, going.owner)
-        return refused(f"Not moved: {problem}") if problem else self._begin(going, going.steps(), Priority.USER)
+        if problem:
+            return going, refused(f"Not moved: {problem}")
+        return going, self._begin(going, going.steps(), Priority.USER)
 
     # ------------------------------------------------------------ for display
 

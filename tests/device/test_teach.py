@@ -1,0 +1,151 @@
+"""Play-back of taught rows: row by row, stopped by everything, the same ends as the program that is made of it."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from concurrent.futures import Future
+from functools import partial
+
+import pytest
+
+from codegen.setup import Setup, Unit
+from codegen.teach import Row, Table, counts_of
+from device.api import LinkError, NotAllowed, Places
+from device.teach import Action, Move, PlayBack, Played, approach, passes
+from device.teach_actions import actions_of, ends_of
+from tests.device.bench import Bench
+
+AXIS = dc.replace(Setup().axes[0], unit=Unit.MM, counts_per_unit="1000", reverse_limit="-50", forward_limit="200")
+SETUP = Setup(model="ssc2", axes=(AXIS,) * 4)
+PACE = Row(speed="50", acceleration="1024", deceleration="1024")
+SLOW = ({"X": 20_000, "Y": 20_000}, {"X": 1_024_000, "Y": 1_024_000})
+
+
+def place(x: str, y: str, **more: str) -> Row:
+    return dc.replace(PACE, x=x, y=y, **more)
+
+
+ROWS = (
+    Row(output="0x0F"),
+    place("2", "1", output="-2"),
+    place("4", "3", wait="3"),
+    place("6", "3", sweep="-180", through="on"),
+    place("7.5", "3.25", pause="200"),
+    Row(wait="-3", output="8"),
+    place("0", "0"),
+)
+
+
+class Playing:
+    """A table on its way."""
+
+    def __init__(self, rows: tuple[Row, ...] = ROWS, step: bool = False) -> None:
+        table = Table(("mm", "mm"), rows)
+        self.bench = Bench("ssc2").ready()
+        self.bench.ask("SH")
+        first = next(row for row in rows if row.moves)
+        actions = actions_of(table, SETUP, approach(counts_of(first, SETUP), *SLOW))
+        self.play, future = self.bench.controller.motion.undertake(partial(PlayBack.of, actions, "teach", step))
+        self.future: Future[Played] = future
+
+    def until_row(self, row: int) -> Playing:
+        self.bench.run_until(lambda: self.play.row == row)
+        return self
+
+    @property
+    def places(self) -> tuple[int, int]:
+        axes = self.bench.simulation.state()["axes"]
+        return axes["X"]["commanded"], axes["Y"]["commanded"]
+
+    @property
+    def outputs(self) -> int:
+        return int(self.bench.simulation.unit.state.outputs)
+
+
+def test_rows_move_wait_switch_and_pause_in_their_order() -> None:
+    playing = Playing().until_row(2)
+    assert playing.outputs & 0x0F == 0x0D  # all four on, then 2 off
+    playing.bench.simulation.stimulus("in3", 0)
+    playing.bench.run(1.5)
+    assert playing.play.doing == "Row 3 waits until input 3 is high." and playing.places == (4000, 3000)
+    playing.bench.simulation.stimulus("in3", 1)
+    playing.until_row(4)
+    playing.bench.run_until(lambda: playing.play.doing == "Row 5 pauses 0.2 s.")
+    began = playing.bench.loopback.clock()
+    playing.bench.run_until(lambda: playing.play.row == 5)
+    assert 0.2 <= playing.bench.loopback.clock() - began < 0.3
+    assert playing.places == (7500, 3250)
+    playing.bench.run(0.5)
+    assert playing.play.doing == "Row 6 waits until input 3 is low."
+    playing.bench.simulation.stimulus("in3", 0)
+    played = playing.bench.result(playing.future)
+    assert (played.finished, played.sentence, playing.places) == (True, "Played back.", (0, 0))
+    assert playing.outputs == 0x8D
+    for name, number in (("_SPX", 25000), ("_VS", 25000), ("_ACY", 256000)):  # as they were (l.5000 of the facts)
+        assert float(playing.bench.ask(f"MG {name}")) == number
+
+
+def test_step_by_step_holds_before_each_row() -> None:
+    playing = Playing((place("1", "1"), place("2", "1"), place("2", "2")), step=True)
+    for row, expected in enumerate([(0, 0), (1000, 1000), (2000, 1000)]):
+        playing.bench.run_until(lambda: playing.play.holds)
+        playing.bench.run(0.5)
+        assert (playing.places, playing.play.doing) == (expected, f"Row {row + 1} is next.")
+        playing.play.go_on()
+        playing.bench.run(0.1)
+    assert playing.bench.result(playing.future).finished and playing.places == (2000, 2000)
+
+
+@pytest.mark.parametrize("how", ["let go", "stop", "watch", "cable", "switch", "another"])
+def test_everything_that_stops_it_stops_all_of_it(how: str) -> None:
+    playing = Playing((place("1", "1"), place("90", "80"), place("1", "1"))).until_row(1)
+    playing.bench.run(0.8)
+    assert not playing.bench.still()
+    controller = playing.bench.controller
+    if how == "let go":
+        controller.motion.release("teach")
+    elif how == "stop":
+        controller.stop()
+    elif how == "watch":
+        controller.release_control()
+    elif how == "cable":
+        playing.bench.loopback.unplugged = True
+    elif how == "switch":
+        playing.bench.simulation.stimulus("fls_y", 0)
+    else:
+        playing.bench.raw(b"ST\r")
+    playing.bench.run_until(playing.future.done, 30)
+    playing.bench.run(1.0)
+    if how == "cable":  # nothing can be sent: the row in hand comes to its own end, and no other follows
+        playing.bench.run(5.0)
+        assert playing.places == (90_000, 80_000)
+    assert playing.bench.still()
+    error = playing.future.exception()
+    if how in ("let go", "watch"):
+        assert error is None and not playing.future.result().finished
+    else:
+        assert isinstance(error, LinkError)
+    if how == "switch":
+        assert "row 2" in str(error) and "limit switch" in str(error)
+
+
+def test_it_is_refused_in_watch_with_a_motor_off_and_while_another_hand_holds() -> None:
+    playing = Playing((place("1", "1"), place("2", "1")))
+    with pytest.raises(NotAllowed, match="moved by hand already"):
+        playing.bench.result(playing.bench.controller.motion.hold("X", 1e4, 1e6, 1e6, "mouse"))
+    playing.bench.result(playing.future)
+    motion = playing.bench.controller.motion
+    make = partial(PlayBack.of, (Action(0, Move(("VM XY",), (0, 0))),), "teach", False)
+    playing.bench.ask("MO")
+    with pytest.raises(NotAllowed, match="motor of axis X is off"):
+        playing.bench.result(motion.undertake(make)[1])
+    playing.bench.controller.release_control()
+    with pytest.raises(NotAllowed, match="Watch"):
+        playing.bench.result(motion.undertake(make)[1])
+
+
+def test_a_row_beyond_a_limit_is_named() -> None:
+    ends = ends_of(Table(("mm", "mm"), (Row(wait="1"), place("1", "2"), place("150", "-20"))), SETUP)
+    places = Places({"X": 0, "Y": 0}, {"X": 200_000, "Y": 200_000}, {"X": -50_000, "Y": -10_000})
+    assert passes(ends, places, SETUP) == "Row 3: -20 mm lies beyond the reverse limit of Y, -10 mm."
+    assert passes(ends[:1], places, SETUP) == ""
