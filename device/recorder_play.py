@@ -75,6 +75,7 @@ class Heard:
         self._line = bytearray()
         self._program = False  # lines go into the program memory
         self._entry = ""
+        self._at = place  # of the record that was told last
         self._quick, self._last = "", 0.0
 
     # ----------------------------------------------------- as the link's owner
@@ -104,7 +105,7 @@ class Heard:
 
     def tell(self, placed: Placed) -> bool:
         """The next record; whether its bytes are of the controller that is shown."""
-        record = placed.record
+        record, self._at = placed.record, placed.place
         if record.what is What.NOTE:
             kind, payload = note_of(record.data)
             self._note(kind, payload, told=placed.place >= self._begin)
@@ -128,12 +129,12 @@ class Heard:
         self._keys, self._entry = (), ""
 
     def _values(self, values: Mapping[str, float]) -> None:
-        poller, now = self._c.poller, self._c.clock()
+        poller, now = self._c.poller, self._at
         poller.ring.write(values, now)
         first = next(iter(values))
         if first == self._quick and now > self._last:
             period = now - self._last
-            poller.ring.period_s += (period - poller.ring.period_s) / 8
+            poller.ring.period_s += (period - poller.ring.period_s) / (8 if poller.ring.period_s else 1)
             poller.ring.turn_s = 10 * poller.ring.period_s
             poller.rate_hz = 1 / max(poller.ring.period_s, 1e-3)
         if live.split(first)[0].quick:

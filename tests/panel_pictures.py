@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 
 from PySide6.QtWidgets import QWidget
 
 from codegen.rates import setting_words
+from device.api import Kind
 from tests.stage import Stage
 
 
@@ -26,6 +28,35 @@ def event_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.studio.at_machine.event_list.table.selectRow(1)
     stage.go()
     yield "panel-events", stage.studio.window
+
+
+def replay_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """What the recorder keeps; then the same played, standing still in the middle of a move."""
+    studio = stage.studio
+    studio.desk.bring("Recorder")
+    studio.recorder.flush()
+    stage.go(70)
+    yield "panel-recorder", studio.window
+    studio.at_machine.recorded.replay_own()
+    _in_real_time(stage, lambda: stage.controller.kind is Kind.REPLAY)
+    tape, recorded = studio.at_machine.tape, studio.at_machine.recorded
+    move = next(each for each in tape.rows if "STOP" in each.text)
+    recorded.seek(move.place - 0.3)
+    tape.play.click()
+    _in_real_time(stage, lambda: stage.controller.last().has("position.x"))
+    stage.go(5)
+    yield "panel-replay", studio.window
+    studio.connection.go_offline()
+
+
+def _in_real_time(stage: Stage, true: Callable[[], object]) -> None:
+    """A replay has a thread of its own."""
+    for _ in range(2000):
+        if true():
+            return
+        time.sleep(0.005)
+        stage.go(1)
+    raise AssertionError("the replay did not come")
 
 
 def doctor_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:

@@ -104,7 +104,7 @@ def scenes(folder: Path, theme: str) -> Iterator[tuple[str, QWidget]]:
     window.show()
     settle()
     yield "window-offline", window
-    for kind in ("simulator", "machine", "replay"):
+    for kind in ("simulator", "machine"):
         running(stage, kind)
         yield f"window-{kind}", window
     yield from _states(stage)
@@ -139,15 +139,10 @@ def running(stage: Stage, kind: str) -> None:
     from device.api import LineSettings
 
     studio = stage.studio
-    if kind == "replay":
-        rig = stage.connect(kind, studio.model(), program=studio.session.listing.text)
-        rig.simulation.execute("#CUTTER")
-    else:
-        line = LineSettings(baud=19200)
-        rig = stage.connect(kind, studio.model(), line=line)
-        stage.download()
-        rig.type("OE 1")  # as in the setup: nothing is asked
-        studio.run.execute()
+    rig = stage.connect(kind, studio.model(), line=LineSettings(baud=19200))
+    stage.download()
+    rig.type("OE 1")  # as in the setup: nothing is asked
+    studio.run.execute()
     stage.until(lambda: rig.simulation.state()["axes"]["X"]["commanded"] > 1500)
     moment = stage.clock.now
     keys = ("position.x", "thread0")  # what the status bar shows, whatever panel is in front
@@ -159,7 +154,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     """A rounded rectangle as the X-Y view saw it."""
     import dataclasses as dc
 
-    from tests.panel_pictures import doctor_scenes, event_scenes
+    from tests.panel_pictures import doctor_scenes, event_scenes, replay_scenes
 
     studio, document = stage.studio, stage.studio.session.document
     axis = dc.replace(document.setup.axes[0], reverse_limit="-5", forward_limit="25")
@@ -177,6 +172,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from _values(stage)
     yield from event_scenes(stage)
     yield from doctor_scenes(stage)
+    yield from replay_scenes(stage)
 
 
 def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
