@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
 from codegen.models import model as model_named
 from device.api import Controller, Kind, LineSettings, State
 from device.door import LEAVE
+from device.simulator.plant import Plant
 from device.simulator.scenes import set_up
 from device.simulator.simulation import Simulation
 from device.transport import OpenFailed, Transport
@@ -46,12 +47,13 @@ class Rig:
         revision: str = "",
         silent: bool = False,
         openable: bool = True,
+        plants: Mapping[str, Plant] | None = None,
         line: LineSettings = LINE,
         began: float = 0.0,
         tap: Callable[[Transport], Transport] = lambda line: line,
         **more: Any,
     ) -> None:
-        self.simulation = Simulation(model_named(model), baud=line.baud, compiled=False)
+        self.simulation = Simulation(model_named(model), plants, baud=line.baud, compiled=False)
         self.began, self.openable, self._tap = began, openable, tap
         if revision:
             self.simulation.unit.revision = lambda: revision  # type: ignore[method-assign]
