@@ -10,6 +10,7 @@ from app.by_hand import ByHand
 from app.event_list import Happened
 from app.ghosts import Ghosts
 from app.operator import Operator
+from app.pads import Pads
 from app.points import Points
 from app.recorder import Recorded
 from app.search import Candidate
@@ -46,6 +47,9 @@ class AtMachine:
         self.ghosts = Ghosts(studio.display, self.plane, self.jog, studio.ear.homed_axes)
         self.ghosts.sources.append(self.by_hand.ghost)
         tick.each(self.ghosts.look)
+        self.pads = Pads()
+        self.pads.add(self.jog)
+        tick.each(self.pads.look)
         self.tape = RecorderPanel()
         self.recorded = Recorded(studio, studio.recorder, self.tape, studio.files.folder)
         self.recorded.said.connect(studio.desk.say)

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from device.jog import Places, Plan
     from device.lease import Ran
     from device.moving import Ended
+    from device.steer import Drove
+    from widgets.jog.drive import Drive
 
 PANEL = "panel"
 SPEEDS = "jog_speeds"  # the setting
@@ -48,11 +50,14 @@ class ByHand(QObject):
     ) -> None:
         super().__init__(parent)
         self._settings, self._points = settings, points
+        self._driven: Future[Any] | None = None
         self._going: dict[str, int] = {}  # where a planned move on its way ends, counts
         self._connection, self._session, self._tick = connection, session, tick
         self._panel, self._ask, self._homed = panel, ask, homed
         panel.hold_wanted.connect(self._hold)
         panel.run_wanted.connect(self._run)
+        panel.drive_wanted.connect(self._drive)
+        panel.steered.connect(self._steer)
         panel.renewed.connect(lambda owner: self._motion.renew(owner))
         panel.released.connect(lambda owner: self._motion.release(owner or None))
         panel.latch_wanted.connect(lambda on: self._motion.set_latch(on))
@@ -69,7 +74,8 @@ class ByHand(QObject):
 
     def ghost(self) -> Mapping[str, int]:
         """Where axes will stop: held, on their way, or looked at; counts."""
-        return self._motion.ghost or self._going or self._panel.preview
+        motion = self._motion
+        return motion.ghost or (self._going if motion.busy else {}) or self._panel.preview
 
     @property
     def _motion(self) -> Any:
@@ -84,6 +90,24 @@ class ByHand(QObject):
     def _run(self, axis: str, speed: int, acceleration: int, deceleration: int, owner: str) -> None:
         self._panel.show_result("")
         self._expect(self._motion.run(axis, speed, acceleration, deceleration, owner), self._ran)
+
+    def _drive(self, drive: Drive, owner: str) -> None:
+        self._panel.show_result("")
+        future: Future[Any] = self._motion.drive(drive.speeds, drive.ramps, drive.ramps, owner=owner)
+        self._driven = future
+
+        def done(future: Future[Any]) -> None:
+            if future is self._driven:  # it ended by itself: the stick has to go through its middle first
+                self._panel.holder.let_go(owner)
+            failure = failure_of(future)
+            self._panel.show_result(failure or self._drove(future.result()), good=not failure)
+
+        self._tick.when_done(future, done)
+
+    def _steer(self, drive: Drive, owner: str) -> None:
+        if problem := self._motion.steer(owner, drive.speeds):
+            self._panel.holder.let_go(owner)
+            self._panel.show_result(problem, good=False)
 
     def go(self, plan: Plan, confirmed: bool = False) -> None:
         """A planned move; asked about first where it passes a limit or the axis is not homed."""
@@ -180,6 +204,16 @@ class ByHand(QObject):
         axis = self._session.document.working_setup.axis(ran.axis)
         ran_on = f"{shown(ran.run_on, axis)} {unit_of(axis)}"
         return f"{ran.sentence} {self._at(ran.axis, ran.place)}; ran on {ran_on} in {ran.seconds * 1000:.0f} ms."
+
+    def _drove(self, drove: Drove) -> str:
+        setup = self._session.document.working_setup
+        ran_on = ", ".join(
+            f"{letter} {shown(counts, setup.axis(letter))} {unit_of(setup.axis(letter))}"
+            for letter, counts in drove.run_on.items()
+        )
+        places = ", ".join(self._at(letter, counts) for letter, counts in drove.places.items())
+        sentence = drove.sentence or "Stopped."
+        return f"{sentence} {places}; ran on {ran_on} in {drove.seconds * 1000:.0f} ms."
 
     def _at(self, letter: str, counts: int) -> str:
         axis = self._session.document.working_setup.axis(letter)

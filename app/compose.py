@@ -140,6 +140,8 @@ class Studio(QObject):
         """At the end: no more ticks, the connection closed, the hooks given back."""
         self.tick.stop()
         self.search.cancel()
+        if "at_machine" in self.__dict__:
+            self.at_machine.pads.close()
         self.connection.close()
         self.recorder.close()
         self.crash.uninstall()

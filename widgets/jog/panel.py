@@ -232,6 +232,13 @@ class JogPanel(Panel):
             if self._drives() and any(drive.speeds.values()) and self.holder.begin(owner):
                 self.drive_wanted.emit(drive, owner)
 
+    def pad_moved(self, across: float, upward: float) -> None:
+        """A gamepad whose dead-man button is down stands here."""
+        self.lean(PAD, across, upward)
+
+    def pad_pressed(self, button: int) -> None:
+        """No other button of a pad does anything here."""
+
     @property
     def pad_wanted(self) -> bool:
         """Whether a gamepad may move something: only on the page of the stick, in the window in front."""
