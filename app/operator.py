@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QObject
@@ -9,10 +10,9 @@ from PySide6.QtCore import QObject
 from app.connection import Connection
 from app.search import Candidate
 from app.tick import Tick
+from device.api import Kind
 from device.second_port import SecondPort
 from widgets.operator.panel import CLOSED, SIMULATED, OperatorPanel
-
-LOOK_TICKS = 60  # between two looks at which serial devices there are, about two seconds
 
 
 class Operator(QObject):
@@ -29,7 +29,9 @@ class Operator(QObject):
         super().__init__(parent)
         self._connection, self._panel, self._ports = connection, panel, ports
         self.port: SecondPort | None = None
-        self._ticks = 0
+        self._listed: object = None  # what the devices were listed for
+        self._listing: threading.Thread | None = None
+        self._found: list[str] = []
         panel.connect_wanted.connect(self.open)
         panel.close_wanted.connect(self.close)
         panel.keys.connect(self._send)
@@ -52,18 +54,35 @@ class Operator(QObject):
             self.port.close()
             self.port = None
         self._panel.show_line(CLOSED, False, False)
-        self._ticks = 0
 
     def once(self) -> None:
         """With every tick: what came is shown."""
-        if self._panel.isVisible() and self._ticks % LOOK_TICKS == 0:
-            own = self._connection.address
-            self._panel.show_lines([port.device for port in self._ports() if port.device != own])
-        self._ticks += self._panel.isVisible()
+        self._list_devices()
         if self.port is not None:
             data = self.port.pump()
             self._panel.show_line(self.port.text, self.port.open, self.port.failed)
             self._panel.received(data)
+
+    def _list_devices(self) -> None:
+        """When the panel is shown, or something else is connected; beside the window's thread, as it may take long."""
+        kind, own = self._connection.controller.kind, self._connection.address
+        if self._listing is not None and not self._listing.is_alive():
+            self._listing = None
+            self._panel.show_lines([device for device in self._found if device != own])
+        wanted = (kind, own) if self._panel.isVisible() else None
+        if wanted == self._listed or self._listing is not None:
+            return
+        self._listed = wanted
+        if wanted is None:
+            return
+        if kind is Kind.SIMULATOR:
+            self._panel.show_lines([])
+        else:
+            self._listing = threading.Thread(target=self._look, name="ports", daemon=True)
+            self._listing.start()
+
+    def _look(self) -> None:
+        self._found = [port.device for port in self._ports()]
 
     def _send(self, data: bytes) -> None:
         if self.port is not None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -10,6 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app.search import Candidate
 from device.api import Kind
 from device.second_port import SecondPort
 from device.simulator.process import SimulatorProcess
@@ -148,3 +151,34 @@ def test_a_second_port_over_a_real_line() -> None:
         first.close()
         second.close()
         assert not second.open and second.pump() == b""
+
+
+def test_devices_are_listed_when_it_is_shown_and_never_with_the_simulator(stage: Stage) -> None:
+    asked: list[str] = []
+    operator = stage.studio.at_machine.operator
+    listed = operator._ports
+
+    def ports() -> Sequence[Candidate]:
+        asked.append(threading.current_thread().name)
+        return [*listed(), Candidate("/dev/ttyUSB7", "second", False)]
+
+    operator._ports = ports
+    stage.connect("simulator")
+    stage.studio.desk.bring("Operator terminal")
+    stage.go(150)
+    assert not asked and stage.studio.at_machine.keys.line.itemText(0) == SIMULATED
+    stage.connect("machine")
+    for _ in range(200):
+        stage.go(1)
+        if stage.studio.at_machine.keys.line.findText("/dev/ttyUSB7") >= 0:
+            break
+        time.sleep(0.005)
+    stage.go(150)
+    assert asked == ["ports"] and stage.studio.at_machine.keys.line.findText(SIMULATED) < 0  # once, beside the window
+    stage.studio.window.docks["Operator terminal"].hide()
+    stage.go(5)
+    stage.studio.desk.bring("Operator terminal")
+    stage.go(5)
+    time.sleep(0.05)
+    stage.go(150)
+    assert len(asked) == 2
