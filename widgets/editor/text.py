@@ -69,7 +69,7 @@ class EditorText(CodeView):
         self.names = names_of(parse(text).lines, self.model)
         self.problems = check(text, self.model) if text.strip() else []
         self.problem_lines = {problem.line: problem.message for problem in reversed(self.problems)}
-        self._paint_extras()
+        self.margin.update()
         self.checked.emit()
 
     # ---- typing

@@ -102,8 +102,9 @@ class Finding(QObject):
 
     def _show(self, found: list[str]) -> None:
         self.found = found
-        self.delegate.found = frozenset(found)
-        self.tree.viewport().update()
+        if self.delegate.found != frozenset(found):
+            self.delegate.found = frozenset(found)
+            self.tree.viewport().update()
         self._count(None)
 
     def _count(self, at: int | None) -> None:

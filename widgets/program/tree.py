@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QMimeData, QModelIndex, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -20,6 +21,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidge
 
 from codegen.program import Place
 from widgets.parts.look import look
+from widgets.parts.still import still
 from widgets.program.delegate import INDENT, ProgramDelegate
 from widgets.program.model import CODE, ENGLISH, NEW_MIME, STEPS_MIME, ProgramModel
 from widgets.program.node import Node
@@ -277,6 +279,42 @@ class ProgramTree(QTableView):
             y = top + (height - 1 if self._target.shown == "below" else 1)
             painter.drawLine(left, y, right, y)
             painter.drawEllipse(QPoint(left, y), 3, 3)
+
+    # ---- what is painted anew
+
+    @contextmanager
+    def changing(self) -> Iterator[None]:
+        """The program changes; afterwards only the rows are painted that do not look as before."""
+        before = self._looks()
+        with still(self):
+            yield
+            self.executeDelayedItemsLayout()
+        after = self._looks()
+        width = self.viewport().width()
+        for place in range(max(len(before), len(after))):
+            if before[place : place + 1] != after[place : place + 1]:
+                line = self.rowAt(0) + place
+                end = place < len(after)
+                top = self.rowViewportPosition(line) if end else self._end()
+                height = self.rowHeight(line) if end else self.viewport().height()
+                self.viewport().update(0, top, width, height)
+
+    def _looks(self) -> list[object]:
+        """What each row in sight shows now."""
+        first, last = self.rowAt(0), self.rowAt(self.viewport().height() - 1)
+        if first < 0:
+            return []
+        chosen = {line for each in self.selectionModel().selection() for line in range(each.top(), each.bottom() + 1)}
+        current, rows = self.currentIndex().row(), self._model.rows
+        return [
+            (self._delegate.looks(rows[line]), line in chosen, line == current)
+            for line in range(first, len(rows) if last < 0 else last + 1)
+        ]
+
+    def _end(self) -> int:
+        """Where the last row ends, in the viewport."""
+        last = len(self._model.rows) - 1
+        return self.rowViewportPosition(last) + self.rowHeight(last)
 
     # ---- size
 

@@ -84,12 +84,14 @@ class ProgramView(QWidget):
     def show_document(self, old: Document | None, new: Document) -> None:
         """Brings everything from `old` to `new`; what did not change is not touched."""
         listing = self.session.listing
-        self.words.show(new, listing)
-        self._showing = True  # rows come and go: the selection is told once, at the end
-        self.model.show(new)
-        self._showing = False
-        self.delegate.show_marks()
-        self.tree.viewport().update()
+        with self.tree.changing():
+            self.words.show(new, listing)
+            self._showing = True  # rows come and go: the selection is told once, at the end
+            self.model.show(new)
+            self._showing = False
+            self.delegate.show_marks()
+            self.finding.follow()
+            self._show_insertion()
         self._show_code()
         self.header.show_program(new.program, _label(listing))
         self.problems.show_problems(new, listing)
@@ -97,9 +99,7 @@ class ProgramView(QWidget):
             self.dialogs.show_offers(offers_of(new, self.live))
         if old is None or old.setup != new.setup:
             self.instructions.show_setup(new.working_setup)
-        self.finding.follow()
         self._show_selection(scroll=False)
-        self._show_insertion()
 
     def _show_code(self) -> None:
         """While the listing is out of sight it follows nothing."""
@@ -352,10 +352,12 @@ class ProgramView(QWidget):
         self.tree.viewport().update()
 
     def _show_insertion(self) -> None:
-        words, self.delegate.next_place = next_place(self.session, self.model, self.words)
+        words, place = next_place(self.session, self.model, self.words)
         self.bar.show_text(words)
         self.bar.setVisible(self.mode != "code" and bool(words))
-        self.tree.viewport().update()
+        if place != self.delegate.next_place:
+            self.delegate.next_place = place
+            self.tree.viewport().update()
         self.refresh_commands()
 
     def _problem_lines(self) -> dict[int, str]:

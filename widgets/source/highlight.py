@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import lru_cache
 
-from PySide6.QtGui import QFont, QSyntaxHighlighter, QTextCharFormat, QTextDocument
+from PySide6.QtGui import QFont, QSyntaxHighlighter, QTextBlock, QTextCharFormat, QTextDocument
 
 from codegen.twoletter.commands import COMMANDS
 from widgets.parts.look import look
@@ -20,6 +21,7 @@ PARTS = re.compile(
     r"|(?P<command>(?:^|(?<=;))\s*[A-Z]{2}(?=$|[^A-Za-z0-9_=\[]|\d|[XYZWS]+\b))"
     r"|(?P<number>\$[0-9A-F]+|(?<![A-Za-z0-9_])\d+(?:\.\d+)?)"
 )
+EVERYTHING = range(1_000_000)
 COLOURS = {
     "comment": "code_comment",
     "string": "code_string",
@@ -45,17 +47,29 @@ def parts_of(text: str) -> tuple[tuple[int, int, str], ...]:
 
 
 class Highlighter(QSyntaxHighlighter):
-    """Colours commands, labels, numbers, texts and comments."""
+    """Colours commands, labels, numbers, texts and comments of the lines in sight."""
 
-    def __init__(self, document: QTextDocument) -> None:
+    def __init__(self, document: QTextDocument, sight: Callable[[], range] = lambda: EVERYTHING) -> None:
         super().__init__(document)
+        self._sight = sight
         self._formats: dict[str, QTextCharFormat] = {}
 
     def highlightBlock(self, text: str) -> None:
-        """Colours one line; its shapes are kept, because they are painted again and again."""
-        self.currentBlock().layout().setCacheEnabled(True)
+        """Colours one line in sight. Its shapes are kept, which marks it too; others wait until they are seen."""
+        block = self.currentBlock()
+        seen = block.blockNumber() in self._sight()
+        block.layout().setCacheEnabled(seen)
+        if not seen:
+            return
         for start, count, kind in parts_of(text):
             self.setFormat(start, count, self._format(kind))
+
+    def colour(self, block: QTextBlock, end: int) -> None:
+        """Colours what has come into sight, from a line up to a number (exclusive)."""
+        while block.isValid() and block.blockNumber() < end:
+            if not block.layout().cacheEnabled():
+                self.rehighlightBlock(block)
+            block = block.next()
 
     def recolour(self) -> None:
         """Takes the colours of the theme that is on now."""

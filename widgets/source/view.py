@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from PySide6.QtCore import QEvent, QRect, Qt, Signal
-from PySide6.QtGui import QColor, QResizeEvent, QTextCursor, QTextFormat
+from PySide6.QtGui import QColor, QPaintEvent, QResizeEvent, QTextCursor, QTextFormat
 from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QWidget
 
 from codegen.docs import command_page
 from widgets.parts.look import look
+from widgets.parts.still import is_still, still
 from widgets.source.highlight import Highlighter
+from widgets.source.hunks import Hunk, hunks
 from widgets.source.margin import Margin
-
-MANY = 24  # lines; fewer are simply replaced
-MOST_TURNED = 12  # lines of steps that were moved together
 
 
 class CodeView(QPlainTextEdit):
@@ -41,11 +40,12 @@ class CodeView(QPlainTextEdit):
         self.executing: dict[int, int] = {}
         self.chosen: tuple[int, ...] = ()
         self.error_line: int | None = None
-        self.highlighter = Highlighter(self.document())
+        self.highlighter = Highlighter(self.document(), self._sight)
         self.margin = Margin(self)
         self._following = False
         self.blockCountChanged.connect(lambda _: self._place_margin())
         self.updateRequest.connect(self._scroll_margin)
+        self.verticalScrollBar().valueChanged.connect(self._scrolled)
         self.cursorPositionChanged.connect(self._cursor_moved)
         self._place_margin()
 
@@ -53,21 +53,23 @@ class CodeView(QPlainTextEdit):
 
     def show_lines(self, lines: Sequence[str], problems: Mapping[int, str]) -> None:
         """Shows `lines`; only the lines that differ are replaced, so scrolling and colours stay."""
-        new = list(lines)
-        first = _same(self.lines, new)
-        last = _same(self.lines[first:][::-1], new[first:][::-1])
-        if first < len(self.lines) or first < len(new):
-            self._following = True
-            end = len(self.lines) - last
-            shift = _turned(self.lines[first:end], new[first : len(new) - last])
-            if shift:  # some lines went past others: the others stay, with their colours
-                self._turn(first, end, shift)
-            else:
-                self._replace(first, end, new[first : len(new) - last], len(new))
-            self._following = False
+        new, sight = list(lines), self._sight()
+        found = hunks(self.lines, new)
+        self._following = True
+        with still(self):
+            for hunk in found:
+                self._replace(hunk.start, hunk.end, hunk.lines)
+                self.lines[hunk.start : hunk.end] = hunk.lines
+        self._following = False
         self.lines = new
-        self.problem_lines = dict(problems)
-        self._paint_extras()
+        for hunk in found:
+            self._update(hunk, sight)
+        marks = dict(problems)
+        if marks != self.problem_lines:
+            self.problem_lines = marks
+            self.margin.update()
+        if found:
+            self._paint_extras()
 
     def show_chosen(self, numbers: Sequence[int], *, scroll: bool = True) -> None:
         """Lights up the lines of the chosen steps and brings the first into view."""
@@ -120,6 +122,19 @@ class CodeView(QPlainTextEdit):
         super().resizeEvent(event)
         self._place_margin()
 
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """What comes into sight gets its colours now."""
+        self._scrolled()
+        super().paintEvent(event)
+
+    def _scrolled(self) -> None:
+        self.highlighter.colour(self.firstVisibleBlock(), self._sight().stop)
+
+    def _sight(self) -> range:
+        """The lines on the screen, and one that is cut off; they are all equally high."""
+        first = self.firstVisibleBlock().blockNumber()
+        return range(first, first + self.viewport().height() // max(1, self.fontMetrics().lineSpacing()) + 2)
+
     def changeEvent(self, event: QEvent) -> None:
         """Takes the colours of a changed theme."""
         super().changeEvent(event)
@@ -129,7 +144,21 @@ class CodeView(QPlainTextEdit):
 
     # ---- inside
 
-    def _replace(self, first: int, end: int, lines: Sequence[str], total: int) -> None:
+    def _update(self, hunk: Hunk, sight: range) -> None:
+        """Paints what a change touched: those lines, or all from there on where others moved up or down."""
+        if hunk.start >= sight.stop:
+            return
+        moved = hunk.end - hunk.start != len(hunk.lines)
+        if hunk.end < sight.start and not moved:
+            return
+        shown = list(self.visible_lines())
+        top = next((top for number, top, _ in shown if number >= hunk.start), 0.0)
+        end = self.viewport().height() if moved else next((top for number, top, _ in shown if number >= hunk.end), 1e6)
+        self.viewport().update(0, int(top), self.viewport().width(), int(min(end, self.viewport().height()) - top) + 1)
+        if moved:
+            self.margin.update()
+
+    def _replace(self, first: int, end: int, lines: Sequence[str]) -> None:
         """Replaces the shown lines `first` … `end` (exclusive)."""
         cursor = QTextCursor(self.document())
         cursor.beginEditBlock()
@@ -147,18 +176,6 @@ class CodeView(QPlainTextEdit):
             cursor.setPosition(after, QTextCursor.MoveMode.KeepAnchor)
             cursor.insertText("".join(line + "\n" for line in lines))
         cursor.endEditBlock()
-
-    def _turn(self, first: int, end: int, shift: int) -> None:
-        """The first `shift` of these lines go behind the others."""
-        lines = self.lines
-        if shift <= (end - first) // 2:
-            self._replace(end, end, lines[first : first + shift], len(lines) + shift)
-            self.lines = lines[:end] + lines[first : first + shift] + lines[end:]
-            self._replace(first, first + shift, [], len(lines))
-        else:
-            self._replace(first + shift, end, [], len(lines) - (end - first - shift))
-            self.lines = lines[: first + shift] + lines[end:]
-            self._replace(first, first, lines[first + shift : end], len(lines))
 
     def help_page(self) -> str:
         """Of the command at the cursor."""
@@ -184,8 +201,10 @@ class CodeView(QPlainTextEdit):
         tints += [(number, "executing", 255) for number in self.executing.values()]
         if self.error_line is not None:
             tints.append((self.error_line, "fault", 60))
-        self.setExtraSelections([self._tint(*tint) for tint in tints if tint[0] < len(self.lines)])
-        self.margin.update()
+        tints = [tint for tint in tints if tint[0] < len(self.lines)]
+        if tints or self.extraSelections():
+            self.setExtraSelections([self._tint(*tint) for tint in tints])
+            self.margin.update()
 
     def _tint(self, number: int, token: str, strength: int) -> QTextEdit.ExtraSelection:
         selection = QTextEdit.ExtraSelection()
@@ -206,27 +225,5 @@ class CodeView(QPlainTextEdit):
     def _scroll_margin(self, rect: QRect, dy: int) -> None:
         if dy:
             self.margin.scroll(0, dy)
-        else:
+        elif not is_still(self):
             self.margin.update(0, rect.y(), self.margin.width(), rect.height())
-
-
-def _turned(old: Sequence[str], new: Sequence[str]) -> int:
-    """How many lines from the start went behind all others; 0 when it is another change."""
-    count = len(old)
-    if count < MANY or len(new) != count:
-        return 0
-    for size in range(1, MOST_TURNED):
-        for shift in (size, count - size):
-            if old[shift] == new[0] and old[:shift] == new[count - shift :] and old[shift:] == new[: count - shift]:
-                return shift
-    return 0
-
-
-def _same(one: Sequence[str], other: Sequence[str]) -> int:
-    """How many lines are the same from the start."""
-    count = 0
-    for left, right in zip(one, other, strict=False):
-        if left != right:
-            break
-        count += 1
-    return count

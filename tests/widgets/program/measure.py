@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from widgets.program.view import ProgramView
 
 SEED = 7
+IN_SIGHT = 18  # rows
 MODES = ("program", "both", "code")
 
 
@@ -52,7 +53,7 @@ def painted(action: Callable[[], object]) -> float:
 
 
 def edits(mode: str, count: int = 40) -> Figure:
-    """Changing, adding, removing, moving, undo and redo in turn."""
+    """Changing, adding, removing, moving, undo and redo in turn; every other edit among the rows in sight."""
     from codegen.instructions import Output, Wait
     from codegen.program import Place, Section
 
@@ -60,7 +61,7 @@ def edits(mode: str, count: int = 40) -> Figure:
     chance = random.Random(SEED)
 
     def one() -> str:
-        return chance.choice(session.document.program.main[1:]).id
+        return chance.choice(session.document.program.main[1 : chance.choice((IN_SIGHT, None))]).id
 
     kinds: tuple[Callable[[], object], ...] = (
         lambda: session.replace(one(), Wait(time=str(chance.randrange(5000, 9000)))),
