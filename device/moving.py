@@ -204,11 +204,16 @@ class Motion:
         keys = [key for key in poller.ring.columns if key in set(along)]
         drive = Drive(
             tracks, exchange, owner, resting=lambda: next(filter(None, map(self._endangered, letters)), ""),
-            one_at_a_time=len(tracks) > 1 and 2 * EXCHANGE * c.line.byte_s > LINE_S, along=requests(keys, columns),
+            one_at_a_time=len(tracks) > 1 and self.alone, along=requests(keys, columns),
             told=lambda values: poller.ring.write(values, c.clock(), keep=poller.wanted()), renewed=c.clock(),
         )  # fmt: skip
         drive.steer(speeds)
         return self._begin(drive, self._driven(drive), Priority.LEASE)
+
+    @property
+    def alone(self) -> bool:
+        """Whether the line is so slow that a stick moves one axis at a time, the one it is pushed to more."""
+        return 2 * EXCHANGE * self._c.line.byte_s > LINE_S
 
     def steer(self, owner: str, speeds: Mapping[str, float]) -> str:
         """Other speeds for the axes that are driven; why not, or nothing."""

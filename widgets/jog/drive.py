@@ -11,10 +11,11 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidg
 from codegen.setup import Setup
 from widgets.jog import plans
 from widgets.jog.speed import PaceChoice
-from widgets.panel import set_text
+from widgets.panel import set_text, show_role
 from widgets.parts.stick import Stick
 
 NONE = "–"
+ALONE = "This line is slow: the axis that the stick is pushed to more moves alone. At 19 200 baud both move."
 PAD_HELP = "Gamepad: hold a shoulder button down and push the left stick. Letting go of the button stops."
 
 
@@ -63,12 +64,13 @@ class DrivePage(QWidget):
             self._speeds = speeds
             self._changed()
 
-    def show_usable(self, reason: str) -> None:
-        """Why nothing may be moved now, or nothing."""
+    def show_usable(self, reason: str, alone: bool) -> None:
+        """Why nothing may be moved now, or nothing; whether the line is too slow for two axes at once."""
         wrong = reason or self._wrong()
         if self.stick.isEnabled() == bool(wrong):
             self.stick.setEnabled(not wrong)
-        set_text(self.problem, "" if reason else wrong)
+        set_text(self.problem, "" if reason else wrong or (ALONE if alone and all(self.axes) else ""))
+        show_role(self.problem, "problem" if wrong else "quiet")
 
     def show_pad(self, words: str) -> None:
         """What is to be said of the gamepad."""

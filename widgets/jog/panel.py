@@ -147,9 +147,11 @@ class JogPanel(Panel):
         for shows in (self.one, self.line, self.arc, self.saved):
             if shows is page and shows is not None:
                 shows.show_ends(places)
-        for each in (self.line, self.arc, self.drive, self.saved):
+        for each in (self.line, self.arc, self.saved):
             if each is not None:
                 each.show_usable(reason)
+        if self.drive is not None:
+            self.drive.show_usable(reason, motion.alone)
         self.halt.setEnabled(bool(motion.busy))
         self._show_arrows()
 
