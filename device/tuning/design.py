@@ -34,7 +34,7 @@ class Target:
 
     crossover: float  # rad/s
     phase: float  # degrees
-    integral: float = 0.1  # corner of the integrator as a part of the crossover; 0: KI 0
+    integral: float = 0.2  # corner of the integrator as a part of the crossover; 0: KI 0
 
 
 @dataclass(frozen=True)
@@ -228,12 +228,14 @@ def attempt(case: Known, target: Target) -> Design | str:
         return f"KP would have to be {values[0]:.3f}, less than the controller's step of {limits('KP')[1]:g}."
     gains, found = nearest_gains(case, target, values)
     wrong = unsound(case, gains, found, target)
-    return wrong or Design(gains, found, remarks(case, gains, found))
+    return wrong or Design(gains, found, remarks(case, gains, found, target.integral > 0.0))
 
 
-def remarks(case: Known, gains: Gains, found: Margins) -> tuple[str, ...]:
+def remarks(case: Known, gains: Gains, found: Margins, asked: bool) -> tuple[str, ...]:
     """What to know about gains that are sound."""
     said = []
+    if asked and not gains.ki:
+        said.append(f"KI would be smaller than its step of {limits('KI')[1]:g}, so it is 0.")
     if kick(gains) > LOUD * gains.torque_limit:
         said.append(f"One count of the encoder makes {kick(gains):.2f} V: the motor may be heard.")
     if case.plant.gravity and not gains.ki and abs(case.plant.gravity) > 4.0 * VOLTS * gains.kp:

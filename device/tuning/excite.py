@@ -13,7 +13,8 @@ STANDING = 0.02  # s of rest before the first jump
 LAST = 0.15  # s left for the answer to the last one
 SMALLEST = 4  # counts; smaller jumps drown in the counting
 LEAST_KD = 1.0  # below, the torque does not tell the error between two elements
-PEAK_PART = 0.7  # of the torque limit
+HELD_PART = 0.5  # of the torque limit: what KP makes of the largest jump until the axis moves
+KICK_PART = 0.95  # of it: the one sample in which the largest jump appears; cut by the limit it would tell less
 CHANNELS = ("TE", "TT", "TP")
 
 
@@ -34,7 +35,7 @@ class Excitation:
     elements: int  # of each array
     channels: tuple[str, ...]
     travel: int  # counts that the commanded position leaves its place, at most
-    peak_volts: float  # of the first sample behind the largest jump, if the plant does not move
+    peak_volts: float  # in the sample in which the largest jump appears
     seconds: float
 
 
@@ -50,6 +51,11 @@ def kick(gains: Gains) -> float:
     return VOLTS * (4.0 * gains.kp + 4.0 * gains.kd)
 
 
+def held(gains: Gains) -> float:
+    """Volts that one count of error makes while it lasts."""
+    return max(1e-9, VOLTS * 4.0 * gains.kp)
+
+
 def excitation(
     gains: Gains,
     travel: int,
@@ -62,14 +68,11 @@ def excitation(
     """Jumps between three places, at times that repeat in no rhythm; the torque stays well below its limit."""
     if gains.kd < LEAST_KD:
         return NotIdentified(f"KD is {gains.kd:g}: the excitation needs KD {LEAST_KD:g} or more. Set KD and try again.")
-    size = min(travel // 2, math.floor(PEAK_PART * gains.torque_limit / kick(gains) / 2.0))
+    largest = min(KICK_PART * gains.torque_limit / kick(gains), HELD_PART * gains.torque_limit / held(gains))
+    size = min(travel // 2, math.floor(largest / 2.0))
     if size < SMALLEST:
-        why = (
-            f"the travel of {travel} counts"
-            if travel // 2 < SMALLEST
-            else f"KD {gains.kd:g} at TL {gains.torque_limit:g} V"
-        )
-        return NotIdentified(f"{why} leaves jumps of {max(0, size)} counts, {SMALLEST} are the least.".capitalize())
+        cause = f"The travel of {travel} counts" if travel // 2 < SMALLEST else f"KP {gains.kp:g} and KD {gains.kd:g}"
+        return NotIdentified(f"{cause} would leave jumps of {max(0, size)} counts; {SMALLEST} are the least.")
     seconds = elements * 2**EXPONENT * period
     chance = random.Random(seed)
     steps: list[Step] = []
@@ -78,4 +81,12 @@ def excitation(
         place, before = chance.choice([other for other in (-1, 0, 1) if other != place]), place
         steps.append(Step(round(at, 4), (place - before) * size))
         at += spacing * chance.choice((1.0, 1.6, 2.3, 4.0))
-    return Excitation(tuple(steps), EXPONENT, elements, CHANNELS[:channels], size, 2.0 * size * kick(gains), seconds)
+    return Excitation(
+        tuple(steps),
+        EXPONENT,
+        elements,
+        CHANNELS[:channels],
+        size,
+        2.0 * size * kick(gains),
+        seconds,
+    )

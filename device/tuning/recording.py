@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy
 
@@ -12,6 +12,8 @@ from device.tuning.plant import Vector
 
 TORQUE_STEP = 10.0 / 32767.0  # V of a captured _TT (commands.md 4)
 WHOLE = 0.3  # counts; how far from a whole number an error between two elements may come out
+QUIET = 9  # elements before the first jump
+NEAR = 6  # samples; two jumps lie further apart
 BAD_PART = 0.05  # of them, above which gains and capture do not belong together
 
 
@@ -53,28 +55,19 @@ def objection(recording: Recording) -> str | None:
     return None
 
 
-def standing(recording: Recording) -> int | None:
-    """The first element at which error and torque have been the same for three."""
-    error, volts = recording.error, recording.volts
-    same = (numpy.diff(error) == 0) & (numpy.abs(numpy.diff(volts)) < 1.5 * TORQUE_STEP)
-    places = numpy.flatnonzero(same[:-1] & same[1:])
-    return int(places[0]) + 1 if len(places) and places[0] < len(error) // 4 else None
-
-
-def errors_between(recording: Recording, start: int) -> tuple[Vector, Vector, int, int]:
-    """Error and integrator of every sample from an element at rest on; how many were unsure, how many did not fit."""
+def errors_between(recording: Recording, integral: float) -> tuple[Vector, Vector, int, int]:
+    """Error and integrator of every sample from the first integrator on; how many were unsure, how many did not fit."""
     gains, error, volts = recording.gains, recording.error, recording.volts
-    count = len(error) - start
+    count = len(error)
     errors, integrals = numpy.zeros(2 * count - 1), numpy.zeros(2 * count - 1)
-    integral = float(volts[start]) - VOLTS * 4.0 * gains.kp * float(error[start])
-    errors[0], integrals[0] = error[start], integral
+    errors[0], integrals[0] = error[0], integral
     both, last, most = 4.0 * (gains.kp + gains.kd), 4.0 * gains.kd, gains.torque_limit - 2 * TORQUE_STEP
     unsure = wrong = 0
     for n in range(1, count):
-        here, torque = float(error[start + n]), float(volts[start + n])
+        here, torque = float(error[n]), float(volts[n])
         exact = ((both + 0.5 * gains.ki) * here * VOLTS + integral - torque) / (VOLTS * (last - 0.5 * gains.ki))
-        if abs(torque) >= most:  # the limit hides it
-            exact = 0.5 * (here + errors[2 * n - 2])
+        if abs(torque) >= most:  # the limit hides it: as it went on before, because a jump may have come just now
+            exact = 2.0 * float(errors[2 * n - 2]) - float(errors[max(0, 2 * n - 3)])
             unsure += 1
         elif abs(exact - round(exact)) > WHOLE:
             wrong += 1
@@ -86,11 +79,36 @@ def errors_between(recording: Recording, start: int) -> tuple[Vector, Vector, in
     return errors, integrals, unsure, wrong
 
 
-def commanded(recording: Recording, errors: Vector, start: int) -> Vector | str:
+def start(recording: Recording) -> float:
+    """Integrator and offset at the first element: what makes the errors between whole numbers near the others."""
+    gains, error, volts = recording.gains, recording.error[:QUIET], recording.volts[:QUIET]
+    both, last = 4.0 * (gains.kp + gains.kd) + 0.5 * gains.ki, VOLTS * (4.0 * gains.kd - 0.5 * gains.ki)
+    first = float(volts[1] - VOLTS * both * error[1]) + last * float(error[0])
+    errors = errors_between(replace(recording, error=error, volts=volts), first)[0]
+    # a whole number too high or too low in all of them is the integrator's part
+    apart = errors[1::2] - 0.5 * (errors[:-1:2] + errors[2::2])
+    return first - last * float(numpy.round(numpy.mean(apart)))
+
+
+def jumps(errors: Vector, sizes: tuple[int, ...]) -> list[int] | None:
+    """The samples at which the commanded position jumped: there the error changes, and not before and behind."""
+    change = numpy.diff(errors, prepend=errors[0], append=errors[-1])
+    spike = numpy.zeros(len(errors))
+    spike[1:] = change[1:-1] - 0.5 * (change[:-2] + change[2:])
+    left, found = numpy.abs(spike), []
+    for _ in sizes:
+        place = int(left.argmax())
+        found.append(place)
+        left[max(0, place - NEAR) : place + NEAR + 1] = 0.0
+    found.sort()
+    fits = all(abs(spike[place] - size) <= 0.5 * abs(size) for place, size in zip(found, sizes, strict=True))
+    return found if fits else None
+
+
+def commanded(recording: Recording, errors: Vector) -> Vector | str:
     """The commanded position of every sample, from its first place; a sentence where the jumps can not be found."""
-    change = numpy.diff(errors)
     if recording.position is not None:
-        even = recording.position[start:] + recording.error[start:]
+        even = recording.position + recording.error
         found = numpy.repeat(even, 2)[: len(errors)].astype(float)
         for n in numpy.flatnonzero(numpy.diff(even)):
             # between the elements: the place that leaves the encoder the smoothest way
@@ -100,19 +118,12 @@ def commanded(recording: Recording, errors: Vector, start: int) -> Vector | str:
             found[middle] = min(options, key=lambda place: abs(place - errors[middle] - mean))
         from_first: Vector = found - found[0]
         return from_first
-    if not recording.steps:
-        return "the sizes of the jumps are not known."
-    smallest = min(abs(size) for size in recording.steps)
-    places = [int(i) for i in numpy.flatnonzero(numpy.abs(change) > 0.5 * smallest)]
-    seen = [round(float(change[i])) for i in places]
-    fits = len(seen) == len(recording.steps) and all(
-        abs(one - other) <= 0.5 * smallest for one, other in zip(seen, recording.steps, strict=True)
-    )
-    if not fits:
-        return f"{len(recording.steps)} jumps were sent, and {len(seen)} are seen in the error."
+    places = jumps(errors, recording.steps) if recording.steps else None
+    if places is None:
+        return f"the {len(recording.steps)} jumps that were sent are not the ones seen in the error."
     result = numpy.zeros(len(errors))
     for place, size in zip(places, recording.steps, strict=True):
-        result[place + 1 :] += size
+        result[place:] += size
     return result
 
 
@@ -121,11 +132,8 @@ def every_sample(recording: Recording) -> Samples | NotIdentified:
     wrong_from_start = objection(recording)
     if wrong_from_start:
         return NotIdentified("The excitation can not be used: " + wrong_from_start)
-    start = standing(recording)
-    if start is None:
-        return NotIdentified("The axis was not at rest when the capture began: let it settle, or lower the gains.")
-    errors, integrals, unsure, wrong = errors_between(recording, start)
-    count = len(recording.error) - start
+    errors, integrals, unsure, wrong = errors_between(recording, start(recording))
+    count = len(recording.error)
     if wrong > max(3, BAD_PART * count):
         return NotIdentified(
             "The captured torque does not follow from the captured error with "
@@ -134,14 +142,14 @@ def every_sample(recording: Recording) -> Samples | NotIdentified:
         )
     if unsure > 0.2 * count:
         return NotIdentified("The torque was at its limit most of the time: use smaller jumps or lower gains.")
-    places = commanded(recording, errors, start)
+    places = commanded(recording, errors)
     if isinstance(places, str):
         return NotIdentified("The excitation can not be used: " + places)
     gains, before = recording.gains, numpy.concatenate([errors[:1], errors[:-1]])
     volts = VOLTS * (4.0 * gains.kp * errors + 4.0 * gains.kd * (errors - before)) + integrals
     volts = numpy.clip(volts, -gains.torque_limit, gains.torque_limit)
-    volts[::2] = recording.volts[start:]
+    volts[::2] = recording.volts
     sure = numpy.ones(len(volts), dtype=bool)
     sure[1::2] = numpy.abs(volts[2::2]) < gains.torque_limit - 2 * TORQUE_STEP
-    jumps = tuple(int(i) + 1 for i in numpy.flatnonzero(numpy.diff(places)))
-    return Samples(recording.period, volts, places - errors, jumps, sure)
+    jumped = tuple(int(i) + 1 for i in numpy.flatnonzero(numpy.diff(places)))
+    return Samples(recording.period, volts, places - errors, jumped, sure)
