@@ -22,7 +22,7 @@ from app.session import Session
 from app.tick import Tick, failure_of
 from device.api import Controller, Job, Kind, State
 from device.commissioning.record import Finding, Record, Verdict, keep, resumed
-from device.commissioning.seen import SWITCHES, Switches, Turned
+from device.commissioning.seen import Switches, Turned
 from device.commissioning.steps import Step, steps_for
 from device.tasks import Priority, Steps
 
@@ -73,6 +73,7 @@ class Commissioning(QObject):
         self.moved: Moved | None = None
         self.measured: Fraction | None = None  # counts in a unit
         self._begun = 0.0
+        self._looking = False
         self._seen: Controller | None = None
         self._offered: Controller | None = None
         self._watched: tuple[str, ...] = ()
@@ -195,6 +196,7 @@ class Commissioning(QObject):
         def ended(future: Future[Any]) -> None:
             self.busy, self.job = "", None
             if failure := failure_of(future):
+                self._offered = None
                 self.found(Finding(Verdict.OPEN, failure), key)
             elif controller is self.controller:
                 done(future.result())
@@ -223,14 +225,21 @@ class Commissioning(QObject):
             self.controller.watch(OWNER, keys)
 
     def _read(self) -> None:
-        """Readings that came since the last look, while something is moved by hand."""
-        inputs = zip(SWITCHES, ("forward_limit", "reverse_limit", "home"), strict=True)
-        levels = {name: self._fresh(key) for name, key in inputs}
+        """What came since the last look, while something is moved by hand."""
         if self.turned is not None and (counts := self._fresh("position")) is not None:
             self.turned = self.turned.with_reading(int(counts))
-        known = {name: int(value) for name, value in levels.items() if value is not None}
-        if self.switches is not None and len(known) == len(SWITCHES):
-            self.switches = self.switches.with_levels(known)
+        if self.switches is not None and not self._looking and not self.busy:
+            from device.commissioning.moves import look_at_switches
+
+            self._looking = True
+            future = self.controller.run(look_at_switches(self.controller, self.record.axis), Priority.POLL, "poll")
+            self._tick.when_done(future, self._looked)
+
+    def _looked(self, future: Future[Any]) -> None:
+        self._looking = False
+        levels = None if failure_of(future) else future.result()
+        if self.switches is not None and levels is not None:
+            self.switches = self.switches.with_levels(levels)
             self._orders.judge_switches()
 
     def _fresh(self, name: str) -> float | None:
@@ -332,11 +341,15 @@ class Commissioning(QObject):
     # ---- after an interruption
 
     def _offer(self) -> None:
-        """Once for each connection in Control: what a step that was interrupted has left changed."""
+        """Whenever Control is taken, and after a failure: what a step that was interrupted has left changed."""
         controller = self.controller
-        if controller is self._offered or controller.state is not State.READY or not controller.control or self.busy:
-            return
-        self._offered = controller
+        if controller.state is not State.READY or not controller.control:
+            self._offered = None
+        elif controller is not self._offered and not self.busy:
+            self._offered = controller
+            self._offer_left(controller)
+
+    def _offer_left(self, controller: Controller) -> None:
         if not self.folder.is_dir():
             return
         from device.tuning.guards import left_behind, meant

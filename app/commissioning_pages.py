@@ -113,7 +113,11 @@ def _switches(now: Now) -> Parts:
     names = {"forward": "forward_limit", "reverse": "reverse_limit", "home": "home"}
     changed = {name for name in SWITCHES if seen is not None and seen.levels.get(name) != seen.rest.get(name)}
     readings = [
-        Reading(SWITCHES[name].capitalize(), now.counts(key), "warning" if name in changed else "")
+        Reading(
+            SWITCHES[name].capitalize(),
+            str(seen.levels[name]) if seen is not None and seen.levels else now.counts(key),
+            "warning" if name in changed else "",
+        )
         for name, key in names.items()
     ]
     asked = seen.asked if seen is not None else ""

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 T = TypeVar("T")
+INPUTS = {"forward": "LF", "reverse": "LR", "home": "HM"}
 KEPT = (*LIMITS, *PROFILE)
 TRIAL_COUNTS, TRIAL_ERROR = 300, 60  # counts of the polarity move, and its error limit
 LARGEST_ERROR = 400  # counts: an axis with much friction needs more than the usual
@@ -81,6 +82,12 @@ def set_switches(c: Controller, axis: str, limit: int, home: int) -> Steps[bool]
     yield from switch_off(c, axis)
     yield from _said(c, f"CN {limit},{home}")
     return True
+
+
+def look_at_switches(c: Controller, axis: str) -> Steps[Mapping[str, int] | None]:
+    """Levels of the three inputs, at once: the usual reading comes round too seldom for a switch tripped by hand."""
+    told = yield from _exchange(c).read(*((f"_{name}{axis}", FLAG) for name in INPUTS.values()))
+    return None if told is None else dict(zip(INPUTS, map(int, told), strict=True))
 
 
 def set_values(

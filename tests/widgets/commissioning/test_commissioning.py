@@ -1,0 +1,328 @@
+"""An axis is brought to life by mouse and keys, with the simulated machine under the person's hands."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit
+
+from app.commissioning import Commissioning
+from codegen.setup import Unit
+from device.api import Kind, State
+from device.commissioning.record import Finding, Record, Verdict, keep
+from device.commissioning.steps import steps_for
+from device.simulator.kernel import layout
+from device.simulator.plant import Enable
+from tests.device.commissioning.machine import bearing
+from tests.stage import Stage, make_studio
+from widgets.commissioning.window import CommissioningWindow
+
+LEFT = Qt.MouseButton.LeftButton
+MOST = 2000  # counts
+SERIAL = 1  # of a simulated controller
+POLARITY = 4  # steps in front of it
+
+
+class Person:
+    """Hands on mouse, keys and machine; `furthest` is how far the motor itself turned in a step that moves."""
+
+    def __init__(
+        self, stage: Stage, model: str = "ssc2", kind: Kind = Kind.SIMULATOR, done: int = 0, **faults: Any
+    ) -> None:
+        """`done`: so many steps were passed at an earlier time."""
+        self.stage = stage
+        found = {step.key: Finding(Verdict.PASSED, "Passed.") for step in steps_for(False, False)[:done]}
+        assert keep(Record("X", model, SERIAL, findings=found), stage.studio._data / "commissioning") == ""
+        setup = dc.replace(stage.studio.session.document.setup, model=model)
+        document = dc.replace(stage.studio.session.document, setup=setup)
+        stage.studio.session.set_document(document, "Machine")
+        stage.connect(kind.value, model, plants={"X": bearing(**faults)})
+        stage.controller.take_control()
+        stage.studio.actions["commissioning"].trigger()
+        stage.go(10)
+        self.furthest = 0.0
+
+    @property
+    def desk(self) -> Commissioning:
+        return self.stage.studio.commissioning
+
+    @property
+    def window(self) -> CommissioningWindow:
+        assert self.desk.window is not None
+        return self.desk.window
+
+    @property
+    def place(self) -> float:
+        return float(self.stage.rig.simulation.motion._parts[0][layout.MOTOR_X])
+
+    def press(self, name: str) -> None:
+        button = self.window.page.acts[name]
+        assert button.isEnabled(), button.toolTip()
+        QTest.mouseClick(button, LEFT)
+        self.settle()
+
+    def settle(self) -> None:
+        """Until nothing is under way; how far the motor turns meanwhile is watched."""
+        start = self.place
+        end = self.stage.clock.now + 30
+        while True:
+            self.stage.go(1)
+            self.furthest = max(self.furthest, abs(self.place - start))
+            assert self.stage.clock.now < end
+            if not self.desk.busy:
+                break
+        self.stage.go(4)
+
+    def type(self, name: str, text: str) -> None:
+        field = self.window.page.fields[name]
+        if isinstance(field, QComboBox):
+            field.setCurrentIndex(field.findData(text))
+            return
+        assert isinstance(field, QLineEdit)
+        field.setFocus()
+        field.selectAll()
+        QTest.keyClicks(field, text)
+
+    def next(self) -> None:
+        QTest.mouseClick(self.window.next, LEFT)
+        self.stage.go(2)
+
+    def finding(self, key: str) -> tuple[Verdict, str]:
+        found = self.desk.record.of(key)
+        return found.verdict, found.sentence
+
+    def push(self, counts: int, times: int = 10) -> None:
+        """The axis is moved by hand, in strokes."""
+        for _ in range(times):
+            self.stage.rig.simulation.stimulus("position_x", counts / times)
+            self.stage.go(4)
+        self.stage.go(10)
+
+    def trip(self, signal: str) -> None:
+        """A switch is tripped by hand and let go."""
+        for level in (0, 1):
+            self.stage.rig.simulation.stimulus(signal, level)
+            self.stage.go(20)
+
+    # ---- the steps
+
+    def safety(self) -> None:
+        self.press("off")
+        self.stage.until(lambda: self.window.page.acts["safety"].isEnabled())
+        for tick in self.window.page.ticks.values():
+            QTest.mouseClick(tick, LEFT, pos=QPoint(14, tick.height() // 2))
+        self.press("safety")
+
+    def off(self) -> None:
+        self.stage.type("MO X")
+        self.stage.until(lambda: self.window.page.acts["begin_encoder"].isEnabled())
+
+    def encoder(self, counts: int = 5000, distance: str = "5") -> None:
+        self.press("begin_encoder")
+        self.stage.go(10)
+        self.push(counts)
+        self.type("distance", distance)
+        self.press("encoder")
+
+    def switches(self, *signals: str) -> None:
+        self.press("begin_switches")
+        self.stage.until(lambda: self.desk.switches is not None and bool(self.desk.switches.rest))
+        for signal in signals or ("fls_x", "rls_x", "home_x"):
+            self.trip(signal)
+
+    def guards(self) -> None:
+        self.press("guards")
+
+
+@pytest.fixture
+def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
+    made = make_studio(tmp_path)
+    document = made.studio.session.document
+    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit="1000")
+    setup = dc.replace(document.setup, axes=(axis,) * 4)
+    made.studio.session.set_document(dc.replace(document, setup=setup), "Machine")
+    made.studio.window.resize(1280, 900)
+    made.studio.window.show()
+    made.go()
+    yield made
+    made.clear_away()
+
+
+def to_polarity(person: Person) -> None:
+    for step in (person.safety, person.encoder, person.switches, person.guards):
+        step()
+        assert person.finding(person.desk.step.key)[0] is Verdict.PASSED, (
+            person.desk.step.key,
+            person.window.words(),
+            person.desk.switches,
+        )
+        person.next()
+
+
+@pytest.mark.parametrize("model", ["ssc2", pytest.param("dmc1412", marks=pytest.mark.long)])
+def test_a_healthy_axis_through_the_whole_list(stage: Stage, model: str, tmp_path: Path) -> None:
+    person = Person(stage, model)
+    to_polarity(person)
+    person.furthest = 0.0
+    person.press("polarity")
+    assert "Did it go the way" in person.finding("polarity")[1]
+    person.press("forward")
+    person.next()
+    person.type("distance", "0.5")
+    person.press("scale")
+    person.type("measured", "0.5")
+    person.press("measured")
+    assert "The scale is right" in person.finding("scale")[1]
+    person.next()
+    person.type("forward", "200")
+    person.type("reverse", "-5")
+    person.press("limits")
+    person.press("take_limits")
+    assert stage.studio.session.document.setup.axis("X").forward_limit == "200"
+    person.next()
+    person.press("burn")
+    assert stage.studio.desk.question is not None
+    assert "next power-up" in stage.studio.desk.question.words
+    QTest.mouseClick(stage.studio.desk.question.buttons["Write to EEPROM"], LEFT)
+    person.settle()
+    assert [finding.verdict for finding in person.desk.record.findings.values()] == [Verdict.PASSED] * 8
+    assert 400 < person.furthest < MOST
+    registers = stage.rig.simulation.unit.state.registers
+    assert registers["FL"][0] // 65536 == 200_000  # 200 mm of 1000 counts
+    QTest.mouseClick(person.window.report, LEFT)
+    assert person.desk.preview is not None
+    text = person.desk.preview.pages.toPlainText()
+    assert "8 of 8 steps passed" in text and "Commissioned by" in text
+    person.desk.preview.save(tmp_path / "report.pdf")
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    ("faults", "words"),
+    [({"motor_reversed": True}, "Wrong polarity"), ({"amplifier_enable": Enable.NONE}, "did not move")],
+)
+def test_a_motor_that_is_wired_wrong(stage: Stage, faults: dict[str, Any], words: str) -> None:
+    person = Person(stage, done=POLARITY, **faults)
+    person.press("polarity")
+    verdict, sentence = person.finding("polarity")
+    assert verdict is Verdict.FAILED and words in sentence
+    assert words in person.window.words()
+    assert person.furthest < MOST
+    assert not person.window.page.acts["forward"].isEnabled()
+    assert person.window.page.result.links.isVisible()
+
+
+def test_an_encoder_with_a_dead_channel_stops_everything_behind_it(stage: Stage) -> None:
+    person = Person(stage, done=1, dead_channel="b")
+    person.off()
+    person.encoder(4330)  # strokes of 433 counts: another quarter of a line each time
+    assert "toggles by one count" in person.finding("encoder")[1]
+    person.desk.choose(4)
+    stage.go(2)
+    button = person.window.page.acts["polarity"]
+    assert not button.isEnabled() and "Encoder by hand" in button.toolTip()
+
+
+def test_a_wrong_scale_is_measured_and_taken_into_the_setup(stage: Stage) -> None:
+    person = Person(stage, done=1)
+    person.off()
+    person.encoder(20_000, "5")
+    verdict, sentence = person.finding("encoder")
+    assert verdict is Verdict.FAILED and "4000 counts in 1 mm were measured" in sentence
+    person.press("take_scale")
+    assert stage.studio.session.document.setup.axis("X").counts_per_unit == "4000"
+    assert person.finding("encoder")[0] is Verdict.PASSED
+
+
+@pytest.mark.parametrize(
+    ("faults", "signals", "words"),
+    [
+        ({"limits_swapped": True}, ("fls_x", "rls_x", "home_x"), "swapped"),
+        ({"home_stuck": True}, ("fls_x", "rls_x", ""), "home input did not change"),
+    ],
+)
+def test_switches_that_are_wired_wrong(
+    stage: Stage, faults: dict[str, Any], signals: tuple[str, ...], words: str
+) -> None:
+    person = Person(stage, done=2, **faults)
+    person.switches(*(signal for signal in signals if signal))
+    if not signals[-1]:
+        person.trip("home_x")
+        person.press("nothing")
+    verdict, sentence = person.finding("switches")
+    assert verdict is Verdict.FAILED and words in sentence
+    assert person.furthest == 0
+
+
+def test_the_list_is_taken_up_where_it_was_left(stage: Stage) -> None:
+    person = Person(stage)
+    person.safety()
+    person.next()
+    person.type("distance", "2,5")
+    person.press("begin_encoder")
+    person.press("encoder")
+    QTest.mouseClick(person.window.close_, LEFT)
+    stage.go(2)
+    stage.studio.actions["commissioning"].trigger()
+    stage.go(5)
+    assert person.desk.step.key == "encoder"
+    assert person.finding("safety")[0] is Verdict.PASSED
+    field = person.window.page.fields["distance"]
+    assert isinstance(field, QLineEdit) and field.text() == "2,5"
+
+
+def test_stop_ends_the_step_and_everything_is_put_back(stage: Stage, tmp_path: Path) -> None:
+    person = Person(stage, kind=Kind.MACHINE, done=POLARITY)
+    person.type("counts", "1500")
+    before = stage.rig.simulation.unit.state.registers["SP"][0]
+    QTest.mouseClick(person.window.page.acts["polarity"], LEFT)
+    start = person.place
+    stage.until(lambda: abs(person.place - start) > 100)
+    assert list((tmp_path / "commissioning").glob("*.before-tuning"))
+    QTest.mouseClick(person.window.stop, LEFT)
+    stage.until(lambda: not person.desk.busy)
+    stage.go(30)
+    assert abs(person.place - start) < MOST
+    assert "STOP" in person.finding("polarity")[1]
+    assert stage.rig.simulation.unit.state.registers["SP"][0] == before
+    assert not list((tmp_path / "commissioning").glob("*.before-tuning"))
+    assert not stage.rig.simulation.state()["axes"]["X"]["motor_on"]
+
+
+def test_what_an_interrupted_step_left_is_offered(stage: Stage, tmp_path: Path) -> None:
+    person = Person(stage, kind=Kind.MACHINE, done=POLARITY)
+    person.type("counts", "1500")
+    before = stage.rig.simulation.unit.state.registers["SP"][0]
+    QTest.mouseClick(person.window.page.acts["polarity"], LEFT)
+    start = person.place
+    stage.until(lambda: abs(person.place - start) > 100)
+    stage.rig.cut()
+    stage.until(lambda: not person.desk.busy)
+    stage.later(3.0)
+    assert abs(person.place - start) < MOST
+    assert stage.rig.simulation.unit.state.registers["SP"][0] != before
+    stage.rig.loopback.unplugged = False
+    stage.until(lambda: stage.controller.state is State.READY)
+    stage.controller.take_control()
+    stage.studio.desk.question = None
+    stage.until(lambda: stage.studio.desk.question is not None)
+    QTest.mouseClick(stage.studio.desk.question.buttons["Put back"], LEFT)
+    stage.until(lambda: not list((tmp_path / "commissioning").glob("*.before-tuning")))
+    assert stage.rig.simulation.unit.state.registers["SP"][0] == before
+
+
+def test_nothing_is_sent_in_watch_and_without_a_controller(stage: Stage) -> None:
+    person = Person(stage, kind=Kind.MACHINE)
+    stage.controller.release_control()
+    stage.go(3)
+    assert not person.window.page.acts["off"].isEnabled()
+    assert "Control" in person.window.page.acts["off"].toolTip()
+    stage.studio.connection.go_offline()
+    stage.go(3)
+    assert not person.window.page.acts["off"].isEnabled()
