@@ -97,23 +97,20 @@ def windows(recordings: Sequence[Samples], rubbing: bool, latest: int) -> Window
 def answers(plant: AxisPlant, period: float) -> tuple[Vector, Vector, Vector]:
     """For gain 1: what starting states, one sample's command and one sample's weight do later."""
     system = sampled(plant, period)
-    size = len(system.output)
-    free, pulse, load = numpy.zeros((LENGTH, size)), numpy.zeros((LENGTH, 2)), numpy.zeros(LENGTH)
-    row = system.output
-    drive = numpy.column_stack([system.now, system.before])
-    for n in range(LENGTH):
-        free[n] = row
-        if n + 1 < LENGTH:
-            pulse[n + 1], load[n + 1] = row @ drive, row @ system.weight
-        row = row @ system.transition
+    free, power = system.output[None, :], system.transition
+    while len(free) < LENGTH:  # rows C, CF, CF², ... by doubling
+        free, power = numpy.concatenate([free, free @ power]), power @ power
+    pulse, load = numpy.zeros((LENGTH, 2)), numpy.zeros(LENGTH)
+    pulse[1:] = free[:-1] @ numpy.column_stack([system.now, system.before])
+    load[1:] = free[:-1] @ system.weight
     return free, pulse, load
 
 
 def lower(pulse: Vector) -> Vector:
     """The matrix that turns commands into what they have done: row n sums pulse[n-k] u[k]."""
-    places = numpy.subtract.outer(numpy.arange(LENGTH), numpy.arange(LENGTH))
-    found: Vector = numpy.where(places >= 0, pulse[places.clip(0)], 0.0)
-    return found
+    padded = numpy.concatenate([numpy.zeros(LENGTH - 1), pulse])
+    rows: Vector = numpy.lib.stride_tricks.sliding_window_view(padded, LENGTH)[:, ::-1]
+    return rows
 
 
 def solve(data: Windows, shape: AxisPlant, rubbing: bool) -> Fit:
