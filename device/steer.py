@@ -121,13 +121,13 @@ class Track:
             yield from self._look()
         elif not self.moving:
             if wanted and wanted * self.blocked <= 0 and held():
-                yield from self._start(wanted)
+                yield from self._start(wanted, held)
         elif wanted * self.speed <= 0:
             self.stopping = yield from self._stop()
         else:
             yield from self._go_on(wanted)
 
-    def _start(self, wanted: int) -> Steps[None]:
+    def _start(self, wanted: int, held: Callable[[], bool]) -> Steps[None]:
         self.speed, self.blocked, self.said = wanted, 0, ""
         end = self._within(self.place + self.sign * self.ahead(wanted))
         if end == self.place:
@@ -136,6 +136,8 @@ class Track:
         commands = [f"AC {at(self.axis, self.acceleration)}", f"DC {at(self.axis, self.deceleration)}"]
         commands += [f"SP {at(self.axis, abs(wanted))}", f"PR {at(self.axis, end - self.place)}", f"BG {self.axis}"]
         for line in self.exchange.packed(commands):
+            if not held():
+                return
             began = self.exchange.clock()
             answer = yield from self.exchange.prove(line)
             if answer.kind is not Kind.ACCEPTED:
