@@ -39,6 +39,7 @@ class Pads:
         self._missing = ""
         self._users: list[PadUser] = []
         self._user: PadUser | None = None
+        self._free = False  # it was let go since this user has it: what was pushed before starts nothing
         self._down: frozenset[int] = frozenset()
 
     def add(self, user: PadUser) -> None:
@@ -51,12 +52,14 @@ class Pads:
         if wants is not self._user:
             if self._user is not None:
                 self._user.pad_moved(0.0, 0.0)
-            self._user = wants
+            self._user, self._free = wants, False
         if wants is None:
             return
         held = self._read()
         wants.show_pad(self._missing or ("" if held is not None else NONE))
-        wants.pad_moved(*(deflection(held.x, held.y) if held is not None and held.dead_man else (0.0, 0.0)))
+        place = deflection(held.x, held.y) if held is not None and held.dead_man else (0.0, 0.0)
+        self._free |= place == (0.0, 0.0)
+        wants.pad_moved(*(place if self._free else (0.0, 0.0)))
         down = held.buttons if held is not None else frozenset[int]()
         for button in sorted(down - self._down):
             wants.pad_pressed(button)

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QPushButton
 
 from codegen.setup import Unit
+from tests.long import count
 from tests.stage import Stage, make_studio
 from widgets.jog.one_axis import OneAxisPage
 from widgets.jog.panel import OFFLINE, WATCHED, JogPanel
@@ -165,6 +167,67 @@ def test_arrows_hold_and_with_shift_they_step(stage: Stage) -> None:
     stage.go(10)
     QTest.keyRelease(editor, Qt.Key.Key_Right)
     assert at(stage) == before - 1000
+
+
+UNCLEAR = ("Shift", "other arrow", "another window", "speed", "latch", "Ctrl released", "letter", "setup")
+
+
+def test_arrows_let_go_when_it_is_not_clear_what_is_meant(stage: Stage) -> None:
+    page, panel = ready(stage), stage.studio.at_machine.jog
+    typed(page, "deceleration", "100")
+    for how in UNCLEAR[: count(3, len(UNCLEAR))]:
+        stage.studio.window.activateWindow()
+        panel.setFocus()
+        QTest.keyPress(panel, Qt.Key.Key_Right)
+        stage.until(lambda: panel.holder.renew() or moving(stage))
+        _disturb(stage, page, how)
+        held_for(stage, 10)
+        assert panel.holder.owner == "" and not moving(stage), how
+        place = at(stage)
+        repeat = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_Right, Qt.KeyboardModifier.NoModifier, "", True)
+        QApplication.sendEvent(panel, repeat)  # the keyboard repeats what is still down
+        held_for(stage, 5)
+        assert at(stage) == place, how
+        QTest.keyRelease(panel, Qt.Key.Key_Right)
+
+
+def _disturb(stage: Stage, page: OneAxisPage, how: str) -> None:
+    panel, studio = stage.studio.at_machine.jog, stage.studio
+    if how == "Shift":
+        QTest.keyPress(panel, Qt.Key.Key_Shift)
+    elif how == "Ctrl released":
+        QTest.keyRelease(panel, Qt.Key.Key_Control)
+    elif how in ("other arrow", "letter"):
+        QTest.keyPress(panel, Qt.Key.Key_Left if how == "other arrow" else Qt.Key.Key_A)
+    elif how == "latch":
+        page.latch.click()
+        stage.controller.motion.set_latch(False)
+    elif how == "speed":
+        QTest.mouseClick(page.fast.buttons["slow"], LEFT)
+    elif how == "setup":
+        document = studio.session.document
+        setup = dc.replace(document.setup, notes="another")
+        studio.session.set_document(dc.replace(document, setup=setup), "Setup")
+    else:
+        studio.options.show()
+        assert studio.options.page is not None
+        studio.options.page.activateWindow()
+
+
+def test_arrows_with_other_keys_hold_nothing(stage: Stage) -> None:
+    ready(stage)
+    panel = stage.studio.at_machine.jog
+    panel.setFocus()
+    stage.go(2)
+    assert "● ← → hold X" in panel.arrows.text()
+    for key in (Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.AltModifier):
+        QTest.keyPress(panel, Qt.Key.Key_Right, key)
+        held_for(stage, 5)
+        QTest.keyRelease(panel, Qt.Key.Key_Right, key)
+    assert at(stage) == 0
+    stage.studio.program.tree.setFocus()
+    stage.go(2)
+    assert panel.arrows.text().startswith("○")
 
 
 def test_a_latched_jog_runs_on_until_it_is_stopped(stage: Stage) -> None:

@@ -12,6 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from device.gamepad import INSTALL, NONE, Held, PadMissing
+from tests.long import count
 from tests.stage import Stage
 from tests.widgets.jog.test_jog import LEFT, at, make_table, moving, ready, still
 from widgets.jog.drive import ALONE, PAD_HELP, DrivePage
@@ -106,14 +107,30 @@ def test_the_pad_drives_as_fast_as_it_is_pushed_while_its_button_is_down(stage: 
     assert page.pad.text() == NONE
 
 
-@pytest.mark.parametrize("how", ["page", "panel", "STOP", "Watch", "window"])
+TAKEN = ("STOP", "panel", "window", "page", "Watch")
+
+
 def test_whatever_takes_the_page_away_stops_and_a_pushed_pad_starts_nothing(
-    stage: Stage, pad: HandPad, how: str, monkeypatch: pytest.MonkeyPatch
+    stage: Stage, pad: HandPad, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stick_page(stage)
+    for how in TAKEN[: count(3, len(TAKEN))]:
+        pad.push(0.0)
+        held_for(stage, 4)
+        pad.push(1.0)
+        held_until(stage, lambda: moving(stage))
+        with monkeypatch.context() as patch:
+            _take(stage, how, patch)
+            held_for(stage, 14)
+            assert not moving(stage), how
+            stopped_at = at(stage)
+        _give_back(stage, how)
+        held_for(stage, 20)
+        assert at(stage) == stopped_at, how  # still pushed: it has to go through its middle first
+
+
+def _take(stage: Stage, how: str, patch: pytest.MonkeyPatch) -> None:
     panel = stage.studio.at_machine.jog
-    pad.push(1.0)
-    held_until(stage, lambda: moving(stage))
     if how == "page":
         panel.buttons[0].click()
     elif how == "panel":
@@ -123,23 +140,16 @@ def test_whatever_takes_the_page_away_stops_and_a_pushed_pad_starts_nothing(
     elif how == "Watch":
         stage.controller.release_control()
     else:
-        monkeypatch.setattr(type(panel), "isActiveWindow", lambda _: False)
-    held_for(stage, 14)
-    assert not moving(stage)
-    stopped_at = at(stage)
+        patch.setattr(type(panel), "isActiveWindow", lambda _: False)
+
+
+def _give_back(stage: Stage, how: str) -> None:
     if how == "page":
-        panel.buttons[3].click()
-        held_for(stage, 2)
-        pad.push(0.0)
+        stage.studio.at_machine.jog.buttons[3].click()
+    elif how == "panel":
+        stage.studio.desk.bring("Jog")
     elif how == "Watch":
         stage.controller.take_control()
-    held_for(stage, 15)
-    assert at(stage) == stopped_at  # still pushed: it has to go through its middle first
-    if how == "STOP":
-        pad.push(0.0)
-        held_for(stage, 10)
-        pad.push(1.0)
-        held_until(stage, lambda: at(stage) > stopped_at)
 
 
 def test_the_stick_on_the_screen_moves_two_axes_and_only_one_hand_holds(stage: Stage, pad: HandPad) -> None:
