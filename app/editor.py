@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QWidget
 
+from app.checking import Checked, Checking
 from app.connection import Connection
 from app.facts import Facts
 from app.run import Ask, Run
@@ -50,6 +51,8 @@ class Editor(QObject):
         self._connection, self._session, self._run, self._ask = connection, session, run, ask
         self._insert, self._folder, self._data, self._parent = insert, folder, data, parent
         self.window: EditorWindow | None = None
+        self.checking = Checking(self._checked)
+        self._sending: str | None = None  # what is sent once it is checked
 
     def show(self) -> None:
         """The editor in front; empty at first."""
@@ -59,12 +62,15 @@ class Editor(QObject):
             self.window = EditorWindow(self._parent)
             self.window.wanted.connect(self._do)
             self.window.closing.connect(self._closing)
+            self.window.text.check_wanted.connect(self.checking.ask)
+            self.window.text.check_now()
         self.window.show()
         self.window.raise_()
         self.window.activateWindow()
 
     def look(self, facts: Facts) -> None:
         """With every tick: what can be done now, and for which controller the code is."""
+        self.checking.look()
         if self.window is None or not self.window.isVisible():
             return
         controller = self._connection.controller
@@ -163,16 +169,40 @@ class Editor(QObject):
         self._run.begin("Uploading", job, lambda done: call(str(done.result()).rstrip("\n")))
 
     def _download(self) -> None:
-        self._shown.text.check_now()
-        errors = [each for each in self._shown.text.problems if each.severity == "error"]
-        if errors:
-            words = f"Line {errors[0].line}: {errors[0].message}"
-            self._ask("Download code with errors?", words, [("Download all the same", self._send)], "warning")
-        else:
-            self._send()
+        """As soon as exactly this text is checked."""
+        self._sending = self._shown.text.toPlainText()
+        self._shown.say("Checked first; then it is sent.")
+        if self.checking.knows(self._sending, self._shown.text.model) is None:
+            self._shown.text.check_now()
+        self._send_when_checked()
 
-    def _send(self) -> None:
-        self._run.download_text(self.text, self._downloaded)
+    def _checked(self, found: Checked) -> None:
+        """Of a text that was changed meanwhile another check is on its way, or will be."""
+        if found.text == self._shown.text.toPlainText():
+            self._shown.show_checked(found.names, found.problems)
+        self._send_when_checked()
+
+    def _send_when_checked(self) -> None:
+        text, shown = self._sending, self._shown
+        if text is None:
+            return
+        if text != shown.text.toPlainText():
+            self._sending = None
+            shown.say("The code was changed while it was checked: press Download again.")
+            return
+        found = self.checking.knows(text, shown.text.model)
+        if found is None:
+            return
+        self._sending = None
+        if found.error is not None:
+            words = f"Line {found.error.line}: {found.error.message}"
+            answers = [("Download all the same", lambda: self._send(text))]
+            self._ask("Download code with errors?", words, answers, "warning")
+        else:
+            self._send(text)
+
+    def _send(self, text: str) -> None:
+        self._run.download_text(text.rstrip("\n"), self._downloaded)
 
     def _downloaded(self, done: Future[Any]) -> None:
         self._shown.say(done.result().sentence)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import statistics
+import threading
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -10,6 +13,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app import checking
+from app.checking import Checked
+from codegen.models import Model
+from tests.long import record
 from tests.stage import Stage, make_studio
 from widgets.editor.window import EditorWindow
 
@@ -48,6 +55,14 @@ def answer(stage: Stage, words: str) -> None:
     stage.go(2)
 
 
+def checked(stage: Stage) -> None:
+    """Until the text is checked as it is."""
+    text = window(stage).text
+    text.check_now()
+    known = stage.studio.editor.checking.knows
+    stage.until(lambda: known(text.toPlainText(), text.model) is not None, 2000)  # it takes time of this world
+
+
 def test_it_completes_checks_and_goes_to_labels_and_problems(stage: Stage) -> None:
     text = window(stage).text
     text.setFocus()
@@ -57,14 +72,14 @@ def test_it_completes_checks_and_goes_to_labels_and_problems(stage: Stage) -> No
     assert {"AC", "AM"} <= set(text.offer.texts)
     QTest.keyClicks(text, "C")
     QTest.keyClick(text, Qt.Key.Key_Escape)
-    text.check_now()  # as after a pause: now the label is known
+    checked(stage)  # as after a pause: now the label is known
     QTest.keyClicks(text, " 5;JP #")
     assert "#GO" in text.offer.texts
     QTest.keyClick(text, Qt.Key.Key_Tab)
     assert text.toPlainText() == "#GO\nAC 5;JP #GO"
     QTest.keyClick(text, Qt.Key.Key_Return)
     QTest.keyClicks(text, "QQ 1")
-    text.check_now()
+    checked(stage)
     assert any(problem.line == 2 for problem in text.problems)
     shown = [window(stage).list.item(row).text() for row in range(window(stage).list.count())]
     row = next(index for index, words in enumerate(shown) if "line 2" in words)
@@ -112,7 +127,7 @@ def test_code_goes_to_the_controller_runs_and_comes_back(stage: Stage) -> None:
     window(stage).show_text(CODE, None)
     stage.go(5)
     press(stage, "Download")
-    stage.until(lambda: list(rig.program) == CODE.split("\n") and not stage.studio.run.doing)
+    stage.until(lambda: list(rig.program) == CODE.split("\n") and not stage.studio.run.doing, 2000)
     press(stage, "Execute")
     answer(stage, "Run what is in the controller")
     stage.until(lambda: rig.simulation.state()["axes"]["X"]["commanded"] == 500)
@@ -126,6 +141,7 @@ def test_code_with_errors_is_asked_about(stage: Stage) -> None:
     window(stage).show_text("#A\nPR 5O0\nEN", None)
     stage.go(5)
     press(stage, "Download")
+    stage.until(lambda: stage.studio.desk.question is not None, 2000)
     question = stage.studio.desk.question
     assert question is not None and question.words.startswith("Line 1")
     question.close()
@@ -140,3 +156,65 @@ def test_code_becomes_steps_of_the_program(stage: Stage) -> None:
     stage.go(5)
     listing = stage.studio.session.listing.text
     assert "PR 500" in listing and len(listing.split("\n")) > before
+
+
+def test_a_download_waits_for_the_check_of_exactly_this_text(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    rig = stage.connect("simulator", "ssc1", program="#OLD\nEN")
+    window(stage).show_text(CODE, None)
+    stage.go(5)
+    may_end = threading.Event()
+
+    def slowly(text: str, model: Model) -> Checked:
+        may_end.wait(10)
+        return examined(text, model)
+
+    examined = checking.checked
+    monkeypatch.setattr(checking, "checked", slowly)
+    window(stage).text.appendPlainText("NO 1")
+    press(stage, "Download")
+    stage.go(20)
+    assert list(rig.program) == ["#OLD", "EN"]  # it is not known yet whether it is right
+    window(stage).text.appendPlainText("NO 2")
+    may_end.set()
+    stage.until(lambda: "press Download again" in window(stage).words.text(), 2000)
+    assert list(rig.program) == ["#OLD", "EN"]
+    stage.until(lambda: window(stage).buttons["Download"].isEnabled())
+    press(stage, "Download")
+    stage.until(lambda: list(rig.program) == [*CODE.split("\n"), "NO 1", "NO 2"], 2000)
+
+
+def gaps(stage: Stage, until: Callable[[], bool]) -> float:
+    """The longest time in ms in which nothing else had its turn."""
+    longest, last = 0.0, time.perf_counter()
+    while not until():
+        stage.go()
+        now = time.perf_counter()
+        longest, last = max(longest, now - last), now
+    return 1000 * longest
+
+
+@pytest.mark.alone
+def test_a_thousand_lines_are_checked_beside_the_window(stage: Stage) -> None:
+    """No gap of more than 50 ms, beyond what the same window shows at that time while nothing is checked."""
+    code = "\n".join(
+        f'PR {number};BG X;AM X;MG "AT",_TPX{{N}}' if number % 9 else f"#L{number}" for number in range(1000)
+    )
+    editor, text = stage.studio.editor, window(stage).text
+
+    def is_checked() -> bool:
+        return editor.checking.knows(text.toPlainText(), text.model) is not None
+
+    def one() -> tuple[float, float]:
+        end = time.perf_counter() + 0.3
+        calm = gaps(stage, lambda: time.perf_counter() > end)
+        QTest.keyClicks(text, "N")
+        text.check_now()
+        return calm, gaps(stage, is_checked)
+
+    window(stage).show_text(code, None)
+    gaps(stage, is_checked)
+    tries = [one() for _ in range(5)]
+    assert len(text.problems) > 0 and window(stage).list.count() == len(text.problems)
+    usual = statistics.median(beside - calm for calm, beside in tries)
+    record("code check of 1000 lines: gap", "python -m pytest tests/app/test_editor.py --long", None, usual, "ms")
+    assert usual < 50, tries

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QTextCursor
 from PySide6.QtWidgets import QWidget
 
 from codegen.models import MODELS, Model
-from codegen.twoletter.check import check
-from codegen.twoletter.complete import Candidate, Names, complete, names_of, parameter_help
-from codegen.twoletter.parse import parse
+from codegen.twoletter.complete import Candidate, Names, complete, parameter_help
 from codegen.twoletter.problems import Problem
 from widgets.parts.offer import Offer, begun
 from widgets.source.view import CodeView
@@ -19,9 +19,9 @@ PAUSE_MS = 200  # after the last key, before it is checked
 
 
 class EditorText(CodeView):
-    """`checked` comes a moment after each change; lines count from 0 as the controller does."""
+    """Asks for a check a moment after each change; lines count from 0 as the controller does."""
 
-    checked = Signal()
+    check_wanted = Signal(str, object)  # the text, the Model
     help_changed = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -34,7 +34,7 @@ class EditorText(CodeView):
         self.setProperty("helpPage", "Code editor")
         self.setTabChangesFocus(True)
         self.model: Model = MODELS["ssc4"]
-        self.problems: list[Problem] = []
+        self.problems: Sequence[Problem] = ()
         self.names = Names()
         self.offer = Offer(self)
         self.offer.taken.connect(self._take)
@@ -62,15 +62,17 @@ class EditorText(CodeView):
             self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def check_now(self) -> None:
-        """Checks without waiting for a pause."""
+        """Asks for the check without waiting for a pause."""
         self._pause.stop()
         text = self.toPlainText()
         self.lines = text.split("\n")
-        self.names = names_of(parse(text).lines, self.model)
-        self.problems = check(text, self.model) if text.strip() else []
-        self.problem_lines = {problem.line: problem.message for problem in reversed(self.problems)}
+        self.check_wanted.emit(text, self.model)
+
+    def show_checked(self, names: Names, problems: Sequence[Problem]) -> None:
+        """What was found in the text as it is."""
+        self.names, self.problems = names, problems
+        self.problem_lines = {problem.line: problem.message for problem in reversed(problems)}
         self.margin.update()
-        self.checked.emit()
 
     # ---- typing
 

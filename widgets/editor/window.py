@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -11,6 +11,8 @@ from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QListWidget, QPushButton, QVBoxLayout, QWidget
 
 from codegen.models import Model
+from codegen.twoletter.complete import Names
+from codegen.twoletter.problems import Problem
 from widgets.editor.text import EditorText
 from widgets.panel import set_text
 
@@ -31,12 +33,13 @@ class EditorWindow(QDialog):
         self.setModal(False)
         self.setProperty("helpPage", "Code editor")
         self.path: Path | None = None
+        self._labels: list[tuple[str, int]] = []
+        self._found: list[str] = []
         self.text = EditorText()
         self.labels, self.list = QComboBox(), QListWidget()
         self.words, self.help = QLabel(), QLabel()
         self.buttons: dict[str, QPushButton] = {}
         self._lay_out()
-        self.text.checked.connect(self._show_checked)
         self.text.help_changed.connect(lambda words: set_text(self.help, words))
         self.text.document().modificationChanged.connect(lambda _: self._retitle())
         self.labels.activated.connect(self._go_to_label)
@@ -46,7 +49,6 @@ class EditorWindow(QDialog):
             shortcut = QShortcut(QKeySequence(keys), self)
             shortcut.activated.connect(self.buttons[name].click)
         self._retitle()
-        self.text.check_now()
 
     @property
     def dirty(self) -> bool:
@@ -80,6 +82,24 @@ class EditorWindow(QDialog):
         """The controller the code is for."""
         self.text.show_model(model)
 
+    def show_checked(self, names: Names, problems: Sequence[Problem]) -> None:
+        """What was found in the text as it is: in the margin, as a list, and counted."""
+        self.text.show_checked(names, problems)
+        labels = self.text.labels()
+        if labels != self._labels or not self.labels.count():
+            self._labels = labels
+            self.labels.clear()
+            self.labels.addItems([LABELS if labels else "No labels", *[name for name, _ in labels]])
+        found = [f"{problem.severity}, line {problem.line}: {problem.message}" for problem in problems]
+        if found != self._found:
+            self._found = found
+            self.list.clear()
+            self.list.addItems(found)
+        count = len(problems)
+        lines = f"{len(self.text.lines)} of {self.text.model.lines} lines"
+        words = "no problems" if not count else f"{count} problem{'s' * (count != 1)}"
+        self.say(f"{self.text.model.title}: {lines}, {words}.")
+
     def say(self, sentence: str) -> None:
         """One sentence at the bottom."""
         set_text(self.words, sentence)
@@ -98,25 +118,10 @@ class EditorWindow(QDialog):
         name = self.path.name if self.path is not None else "not saved in a file"
         self.setWindowTitle(f"Code editor – {name}{' *' if self.dirty else ''}")
 
-    def _show_checked(self) -> None:
-        labels = self.text.labels()
-        self.labels.clear()
-        self.labels.addItem(LABELS if labels else "No labels")
-        for name, line in labels:
-            self.labels.addItem(name, line)
-        self.list.clear()
-        for problem in self.text.problems:
-            self.list.addItem(f"{problem.severity}, line {problem.line}: {problem.message}")
-        count = len(self.text.problems)
-        lines = f"{len(self.text.lines)} of {self.text.model.lines} lines"
-        problems = "no problems" if not count else f"{count} problem{'s' * (count != 1)}"
-        self.say(f"{self.text.model.title}: {lines}, {problems}.")
-
     def _go_to_label(self, index: int) -> None:
-        line = self.labels.itemData(index)
         self.labels.setCurrentIndex(0)
-        if line is not None:
-            self.text.go_to(line)
+        if 0 < index <= len(self._labels):
+            self.text.go_to(self._labels[index - 1][1])
 
     def _go_to_problem(self) -> None:
         row = self.list.currentRow()
