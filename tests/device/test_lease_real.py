@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import IO
 
 import pytest
@@ -31,12 +31,14 @@ WITHIN = {
 
 
 class Studio:
-    """The process that holds, and the machine it holds."""
+    """The process that holds, and the machine it holds; `more` and another module hold by a window."""
 
-    def __init__(self, machine: SimulatorProcess, baud: int) -> None:
+    def __init__(
+        self, machine: SimulatorProcess, baud: int, module: str = "tests.device.holding", more: Sequence[str] = ()
+    ) -> None:
         self.machine = machine
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.device.holding", machine.address, str(baud)],
+            [sys.executable, "-m", module, machine.address, str(baud), *more],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -77,7 +79,7 @@ def axis(machine: SimulatorProcess) -> dict[str, float]:
     return found
 
 
-def run(machine: SimulatorProcess, studio: Studio) -> None:
+def run(machine: SimulatorProcess, studio: Studio, letting_go: str = "freeze") -> None:
     """Held, at speed; pressed again where a busy computer let the lease lapse."""
     for _ in range(10):
         start = axis(machine)["commanded"]
@@ -86,7 +88,7 @@ def run(machine: SimulatorProcess, studio: Studio) -> None:
         wait_until(lambda: not axis(machine)["moving"] or axis(machine)["commanded"] - start > SPEED * 0.25, 5.0)  # noqa: B023
         if axis(machine)["moving"]:
             return
-        studio.told("freeze")
+        studio.told(letting_go)
         time.sleep(0.3)
     raise AssertionError("the axis was never held")
 
