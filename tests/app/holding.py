@@ -48,7 +48,7 @@ class Hand:
         self.studio.window.show()
         self.studio.tick.start()
         self.studio.connection.adopt(connect(address, line), "simulator")
-        self.other = QWidget()
+        self.other, self.over = QWidget(), False
         self._notifier = QSocketNotifier(sys.stdin.fileno(), QSocketNotifier.Type.Read)
         self._notifier.activated.connect(lambda *_: self.hear(sys.stdin.readline().strip()))
         self._begin = QTimer(interval=50)
@@ -68,6 +68,7 @@ class Hand:
 
     def hear(self, word: str) -> None:
         if not word:
+            self.over = True
             QApplication.quit()
             return
         if word == "hold":
@@ -109,7 +110,8 @@ class Hand:
 def main(address: str, baud: int, folder: Path) -> None:
     application = QApplication([])
     hand = Hand(address, baud, folder)
-    application.exec()
+    while not hand.over:  # the window was closed, and is opened again
+        application.exec()
     hand.studio.close()
 
 
