@@ -116,6 +116,8 @@ ROWS: tuple[Row, ...] = (
     Row("jog", "Jog", "Machine", "Move axes by hand", "Alt+6", "jog", "main", "Jog"),
     Row("commissioning", "Bring an axis to life…", "Machine",
         "A new axis, step by step: enable, encoder, switches, limits, polarity, scale, report", "", "machine"),
+    Row("scope", "Scope", "Machine", "Curves of positions, errors, torque, inputs: captured or live", "Alt+9", "scope",
+        "main", "Scope"),
     Row("plane", "X-Y view", "Machine", "The way of two axes from above", "Alt+4", "measure"),
     Row("operator", "Operator terminal", "Machine", "The terminal at port 2 of the controller", "Alt+5", "operator"),
     Row("variables", "Variables", "Machine", "Variables and arrays of the controller", "Alt+7", "program"),
@@ -163,7 +165,7 @@ MENUS = ("File", "Edit", "View", "Machine", "Controller", "Help")
 # what stands together in the toolbar, in the order of the manual's main panel
 MAIN = (
     ("open", "save"),
-    ("setup", "program", "terminal", "display", "jog"),
+    ("setup", "program", "terminal", "display", "jog", "scope"),
     ("help", "exit"),
 )
 RUN = (("download", "execute", "halt"), ("burn", "upload"))

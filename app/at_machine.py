@@ -13,6 +13,7 @@ from app.operator import Operator
 from app.pads import Pads
 from app.points import Points
 from app.recorder import Recorded
+from app.scope import Scope
 from app.search import Candidate
 from app.variables import Variables
 from app.window import BOTTOM, RIGHT
@@ -22,6 +23,7 @@ from widgets.operator.panel import OperatorPanel
 from widgets.panel import Panel
 from widgets.plane.panel import PlanePanel
 from widgets.recorder.panel import RecorderPanel
+from widgets.scope.panel import ScopePanel
 from widgets.values.panel import ValuesPanel
 
 if TYPE_CHECKING:
@@ -54,16 +56,22 @@ class AtMachine:
         self.recorded = Recorded(studio, studio.recorder, self.tape, studio.files.folder)
         self.recorded.said.connect(studio.desk.say)
         self.happened.recording = self.recorded.kept
+        self.curves = ScopePanel()
+        self.scope = Scope(
+            connection, studio.session, tick, self.curves, data / "captures", clock, studio.window, studio
+        )
+        self.scope.said.connect(studio.desk.say)
         self.event_list.line_wanted.connect(studio.ear.reveal)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (
             self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
-            self.tape, self.recorded.ear,
+            self.tape, self.recorded.ear, self.curves,
         )  # fmt: skip
         self.docks = (
             ("Jog", self.jog, RIGHT),
             ("X-Y view", self.plane, RIGHT),
             ("Operator terminal", self.keys, RIGHT),
+            ("Scope", self.curves, BOTTOM),
             ("Variables", self.values, BOTTOM),
             ("Events", self.event_list, BOTTOM),
             ("Recorder", self.tape, BOTTOM),

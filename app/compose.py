@@ -160,6 +160,7 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(self._bring, "X-Y view"), "operator": partial(self._bring, "Operator terminal"),
+            "scope": self._bring_scope,
             "events": partial(self._bring, "Events"), "recorder": partial(self._bring, "Recorder"),
             "open_recording": self._open_recording,
             "editor": self.editor.show,
@@ -360,6 +361,11 @@ class Studio(QObject):
         """A panel that may have to be made first."""
         self._make_panels()
         self.desk.bring(title)
+
+    def _bring_scope(self) -> None:
+        self._make_panels()
+        self.at_machine.scope.bring(self.window.docks["Scope"])
+        self.desk.bring("Scope")
 
     def _open_recording(self) -> None:
         self._bring("Recorder")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -209,6 +209,19 @@ def _trigger_objection(plan: Plan, model: Model) -> str:
     if trigger.when is When.LEVEL and trigger.channel is not None and not trigger.channel.live_key:
         return f"{trigger.channel.label} can not be waited for: the controller tells it only in recordings."
     return ""
+
+
+def shown_by(trigger: Trigger, recorded: Collection[Channel]) -> Channel | None:
+    """The recorded channel that shows the trigger to the very value; None: it is only known from polling."""
+    wanted: tuple[Channel, ...]
+    match trigger.when:
+        case When.MOTION:
+            wanted = (Channel("commanded", trigger.axis), Channel("axis_status", trigger.axis))
+        case When.INPUT:
+            wanted = (Channel("inputs"),)
+        case _:
+            wanted = (trigger.channel,) if trigger.channel is not None else ()
+    return next((channel for channel in wanted if channel in recorded), None)
 
 
 # ------------------------------------------------------------------- what was captured

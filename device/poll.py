@@ -62,6 +62,7 @@ class Poller:
         self.rate_hz = 0.0
         self.line_share = 0.0  # of the time in which characters of polls travel
         self.hurry = False  # as fast as the line can, whatever a program loses by it
+        self.first: frozenset[str] = frozenset()  # read in every round, because they are drawn as curves
         self._line, self._clock, self._nonces = line, clock, nonces
         self._suspended, self._read, self._idle = suspended, read, idle
         self._rounds = 0
@@ -112,7 +113,8 @@ class Poller:
         """
         wanted, idle = self.wanted(), self._idle()
         rows = {key: live.split(key)[0] for key in wanted}
-        quick = tuple(key for key, row in rows.items() if row.quick and not (row.slow and idle))
+        first = self.first
+        quick = tuple(key for key, row in rows.items() if key in first or (row.quick and not (row.slow and idle)))
         others = [key for key in wanted if key not in quick and self._is_due(key, now)]
         others.sort(key=lambda key: self._asked.get(key, 0.0))
         columns = self.brief or self.columns

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from device import live
-from device.capture import Channel, Trigger, When
+from device.capture import Channel, Trigger, When, shown_by
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,21 +55,17 @@ def found_at(
 
 def signal_of(trigger: Trigger, channels: Sequence[Channel], values: NDArray[np.float64]) -> NDArray[np.bool_] | None:
     """A flag per element that becomes true at the trigger; None where no recorded channel shows it."""
-    if trigger.when is When.MOTION:
-        if (commanded := Channel("commanded", trigger.axis)) in channels:
-            row = values[channels.index(commanded)]
-            return np.concatenate([np.zeros(1, dtype=np.bool_), row[1:] != row[:-1]])
-        if (status := Channel("axis_status", trigger.axis)) in channels:
-            return _bit(values[channels.index(status)], MOVING_BIT)
+    channel = shown_by(trigger, channels)
+    if channel is None:
         return None
+    row = values[list(channels).index(channel)]
+    if channel.what == "commanded" and trigger.when is When.MOTION:
+        return np.concatenate([np.zeros(1, dtype=np.bool_), row[1:] != row[:-1]])
+    if channel.what == "axis_status" and trigger.when is When.MOTION:
+        return _bit(row, MOVING_BIT)
     if trigger.when is When.INPUT:
-        if Channel("inputs") not in channels:
-            return None
-        on = _bit(values[channels.index(Channel("inputs"))], trigger.number - 1)
+        on = _bit(row, trigger.number - 1)
         return on if trigger.rising else ~on
-    if trigger.channel is None or trigger.channel not in channels:
-        return None
-    row = values[channels.index(trigger.channel)]
     there: NDArray[np.bool_] = np.greater_equal(row, trigger.level)
     return there if trigger.rising else np.less_equal(row, trigger.level)
 

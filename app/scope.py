@@ -1,0 +1,216 @@
+"""The scope's hands: captures on the controller, the live roll, files; every refusal is a sentence in the panel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, QSize, Signal
+from PySide6.QtWidgets import QDockWidget
+
+from app.connection import Connection
+from app.session import Session
+from app.tick import Tick, failure_of
+from codegen.files import FileUnreadable
+from device.api import Controller, Kind
+from widgets.parts.files import ask_open, ask_save
+from widgets.scope.panel import ScopePanel
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from PySide6.QtWidgets import QWidget
+
+    from device.capture import Capture, Plan
+    from device.capturing import CaptureJob
+    from device.roll import Roll
+    from widgets.scope.body import Body
+
+OWNER = "scope"  # of what is watched live
+CAPTURES = "Captures (*.csv *.npz)"
+PARTLY_S = 0.4  # between two pictures of a capture under way
+ROOM = QSize(1180, 720)  # of the window of its own
+KEPT = 200  # captures that are kept in files by themselves; the oldest go
+
+
+class Scope(QObject):
+    """One capture at a time; what was captured is also kept in a file at once."""
+
+    said = Signal(str)
+
+    def __init__(
+        self,
+        connection: Connection,
+        session: Session,
+        tick: Tick,
+        panel: ScopePanel,
+        folder: Path,
+        clock: Callable[[], float],
+        window: QWidget,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._connection, self._session, self._tick = connection, session, tick
+        self._panel, self._folder, self._clock, self._window = panel, folder, clock, window
+        self.job: CaptureJob | None = None
+        self.roll: Roll | None = None
+        self.captured: Callable[[Capture], None] = lambda capture: None  # for the recorder
+        self._watched: Controller | None = None
+        self._drawn_at = 0.0
+        self._read, self._placed = 0, False
+        panel.opened.connect(self._opened)
+        connection.changed.connect(self._attach)
+        tick.each(self.look)
+
+    def bring(self, dock: QDockWidget) -> None:
+        """In front; the first time in a window of its own, because curves want room."""
+        if not self._placed and not dock.isFloating() and dock.height() < ROOM.height():
+            dock.show()
+            dock.setFloating(True)
+            dock.resize(ROOM.boundedTo(self._window.screen().availableSize() * 0.95))
+        self._placed = True
+
+    @property
+    def _body(self) -> Body:
+        assert self._panel.body is not None
+        return self._panel.body
+
+    def _opened(self) -> None:
+        body = self._body
+        body.capture_wanted.connect(self.capture)
+        body.finish_wanted.connect(lambda: self.job and self.job.finish())
+        body.cancel_wanted.connect(lambda: self.job and self.job.cancel())
+        body.live_wanted.connect(self.live)
+        body.save_wanted.connect(self._save)
+        body.open_wanted.connect(self._open)
+
+    # ------------------------------------------------------------------ a capture
+
+    def capture(self, plan: Plan) -> None:
+        """Begins one; the panel shows how it goes."""
+        from device.capturing import capture
+
+        if self.job is not None:
+            return
+        controller = self._connection.controller
+        controller.used()
+        job = self.job = capture(controller, plan, setup=self._session.document.working_setup)
+        self._read = 0
+        self._body.show_progress(job.phase, 0.0, job.remaining_s)
+        self._tick.when_done(job.future, partial(self._done, job))
+
+    def _done(self, job: CaptureJob, future: Future[Any]) -> None:
+        if job is not self.job:
+            return
+        self.job = None
+        failure, part = failure_of(future), job.partial()
+        capture: Capture | None = part if failure else future.result()
+        if capture is not None:
+            name = self._keep(capture)
+            self._body.add(capture)
+            self.captured(capture)
+            words = (
+                f"{capture.count} values a channel" + ("" if capture.complete else ", a part") + f"; kept as {name}."
+            )
+            self._body.show_result(failure or words, good=not failure)
+        else:
+            self._body.show_result(failure, good=False)
+        if failure:
+            self.said.emit(failure)
+
+    def look(self) -> None:
+        """With each tick: how far a capture is, and what is new in the live roll."""
+        if self.job is not None and self._panel.isVisible():
+            job, now = self.job, self._clock()
+            self._body.show_progress(job.phase, job.fraction, job.remaining_s)
+            if now - self._drawn_at >= PARTLY_S:
+                self._drawn_at = now
+                part = job.partial()
+                if part is not None and part.count != self._read:
+                    self._read = part.count
+                    self._body.show_partial(part)
+        roll, controller = self.roll, self._connection.controller
+        if roll is not None and roll.take(controller.poller.ring) and self._panel.isVisible():
+            self._body.roll_on(self._clock())
+
+    # -------------------------------------------------------------------- live
+
+    def live(self, on: bool) -> None:
+        """The chosen channels continuously, as fast as the line carries; or no longer."""
+        from device.roll import Roll
+
+        controller = self._connection.controller
+        keys = [channel.live_key for channel in self._body.live_channels]
+        if self._watched is not None:
+            self._watched.hurry(False)
+            self._watched.poller.first = frozenset()
+            self._watched.watch(OWNER, ())
+            self._watched = None
+        self.roll = Roll(keys) if on and keys and controller.kind is not Kind.OFFLINE else None
+        if self.roll is not None:
+            self._watched = controller
+            controller.watch(OWNER, keys)
+            controller.hurry(True)
+            controller.poller.first = frozenset(keys)
+        self._body.show_roll(self.roll)
+        if on and not keys:
+            self._body.show_result("Choose a channel that can be watched first.", good=False)
+
+    def _attach(self, controller: Controller) -> None:
+        """Another controller: nothing of the former goes on."""
+        if self._panel.body is not None and self.roll is not None:
+            self.live(False)
+
+    # -------------------------------------------------------------------- files
+
+    def _keep(self, capture: Capture) -> str:
+        """Every capture goes into a file, so that none is lost; the name of the file, or why there is none."""
+        from device.capture_file import save
+
+        stem = capture.when.replace(":", ".") or "capture"
+        path = self._folder / f"{stem}.npz"
+        number = 1
+        while path.exists():
+            number += 1
+            path = self._folder / f"{stem} ({number}).npz"
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            save(path, capture)
+            for old in sorted(self._folder.glob("*.npz"))[:-KEPT]:
+                old.unlink()
+        except OSError as reason:
+            return f"no file ({(reason.strerror or str(reason)).lower()})"
+        return path.name
+
+    def _save(self, capture: Capture) -> None:
+        stem = capture.when.replace(":", ".") or "capture"
+        proposed = Path.home() / f"{stem}.csv"
+        ask_save(self._window, "Save capture", CAPTURES, partial(self.save, capture), proposed, "csv")
+
+    def save(self, capture: Capture, path: Path) -> None:
+        from device.capture_file import save
+
+        try:
+            save(path, capture)
+        except OSError as reason:
+            self._body.show_result(f"Not saved: {path.name}: {(reason.strerror or str(reason)).lower()}.", good=False)
+            return
+        self._body.show_result(f"Saved as {path.name}.")
+
+    def _open(self) -> None:
+        folder = self._folder if self._folder.is_dir() else None
+        ask_open(self._window, "Open capture", CAPTURES, self.open, folder)
+
+    def open(self, path: Path) -> None:
+        """An earlier capture is shown; of a file that is none, one sentence says why."""
+        from device.capture_file import load
+
+        try:
+            capture = load(path)
+        except FileUnreadable as reason:
+            self._body.show_result(f"{reason}.", good=False)
+            return
+        self._body.add(capture, path.name)
+        self._body.show_result(f"{path.name}: {capture.count} values a channel.")

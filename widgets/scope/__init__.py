@@ -1,0 +1,1 @@
+"""Captures, live roll, cursors, measurements, spectra."""

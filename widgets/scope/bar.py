@@ -1,0 +1,228 @@
+"""The row above the curves: begin, end and follow a capture; choose what is seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from enum import StrEnum
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from device.curves import WINDOW_WORDS, Window
+from widgets.panel import set_text, show_role
+from widgets.parts.icons import icon
+
+WORDY = 900  # px of width from which on all buttons say their names
+SPANS = {"10 s": 10.0, "30 s": 30.0, "2 min": 120.0, "10 min": 600.0, "1 h": 3600.0}
+
+
+class View(StrEnum):
+    """What is drawn over what."""
+
+    TIME = "Over time"
+    PLANE = "X-Y"
+    SPECTRUM = "Spectrum"
+
+
+class Bar(QWidget):
+    """Buttons and lists; the body listens to them."""
+
+    view_chosen = Signal()
+    drawn_otherwise = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.stretch: tuple[float, float] | None = None  # of which the spectrum is calculated
+        self.capture, self.finish, self.cancel = (
+            QPushButton("Capture"),
+            QPushButton("Stop, read"),
+            QPushButton("Cancel"),
+        )
+        self.live, self.span = QPushButton("Live"), QComboBox()
+        self.views, self.windows, self.across, self.upward = QComboBox(), QComboBox(), QComboBox(), QComboBox()
+        self.over = QLabel("over")
+        self.cursors, self.sides_left, self.sides_right = (
+            QPushButton(text) for text in ("Cursors", "Channels", "Readings")
+        )
+        self.fit, self.save, self.open, self.picture = (QToolButton() for _ in range(4))
+        self.progress, self.words = QProgressBar(), QLabel()
+        self._busy = False
+        self._name_all()
+        self._lay_out()
+        self._connect()
+        self.show_result("")
+        self.show_live(False)
+
+    # ------------------------------------------------------------------- chosen
+
+    @property
+    def view(self) -> View:
+        return View(self.views.currentText())
+
+    @property
+    def window_kind(self) -> Window:
+        return Window(self.windows.currentText())
+
+    @property
+    def span_s(self) -> float:
+        """How much of the live roll is shown."""
+        return SPANS[self.span.currentText()]
+
+    @property
+    def sides(self) -> tuple[str, str]:
+        """The names of the curves across and upward."""
+        return self.across.currentText(), self.upward.currentText()
+
+    def offer_sides(self, names: Sequence[str]) -> None:
+        """The curves that can be drawn over each other."""
+        if [self.across.itemText(place) for place in range(self.across.count())] == list(names):
+            return
+        for box, usual in ((self.across, 0), (self.upward, min(1, len(names) - 1))):
+            before = box.currentText()
+            box.blockSignals(True)
+            box.clear()
+            box.addItems(list(names))
+            box.setCurrentIndex(names.index(before) if before in names else usual)
+            box.blockSignals(False)
+
+    # -------------------------------------------------------------------- shown
+
+    def allow(self, reason: str, online: bool) -> None:
+        """Whether a capture can begin; the reason why not is its tip."""
+        self.capture.setEnabled(not reason and not self._busy and not self.live.isChecked())
+        told = reason or ("Switch Live off first." if self.live.isChecked() else "The controller records by itself.")
+        if self.capture.toolTip() != told:
+            self.capture.setToolTip(told)
+            self.capture.setStatusTip(told)
+        self.live.setEnabled(online and not self._busy)
+
+    def show_progress(self, phase: str, fraction: float, remaining_s: float) -> None:
+        """A capture is under way."""
+        self._busy = True
+        for widget in (self.finish, self.cancel, self.progress):
+            widget.show()
+        self.progress.setRange(0, 0 if math.isnan(remaining_s) and phase != "preparing" else 1000)
+        self.progress.setValue(round(1000 * fraction))
+        left = "" if math.isnan(remaining_s) or phase == "preparing" else f", {_left(remaining_s)} left"
+        self.words.setVisible(True)
+        self.words.setWordWrap(False)
+        set_text(self.words, f"{phase[:1].upper()}{phase[1:]}{left}")
+        show_role(self.words, "quiet")
+
+    def show_result(self, words: str, good: bool = True) -> None:
+        """Nothing is under way any more."""
+        self._busy = False
+        for widget in (self.finish, self.cancel, self.progress):
+            widget.hide()
+        set_text(self.words, words)
+        self.words.setToolTip(words)
+        self.words.setVisible(bool(words))
+        self.words.setWordWrap(True)
+        show_role(self.words, "quiet" if good else "problem")
+
+    def show_live(self, on: bool) -> None:
+        self.live.setChecked(on)
+        self.span.setVisible(on)
+
+    def show_view(self, view: View, live: bool) -> None:
+        """Only what belongs to the view is offered."""
+        self.views.setEnabled(not live)
+        self.windows.setVisible(view is View.SPECTRUM and not live)
+        for widget in (self.across, self.over, self.upward):
+            widget.setVisible(view is View.PLANE and not live)
+        self.cursors.setEnabled(view is not View.PLANE or live)
+
+    def can_save(self, there: bool) -> None:
+        self.save.setEnabled(there)
+
+    # ------------------------------------------------------------------ details
+
+    def _name_all(self) -> None:
+        for button, name, tip in (
+            (self.capture, "record", "The controller records by itself."),
+            (self.finish, "download", "Ends the recording now and reads what was recorded"),
+            (self.cancel, "close", "Ends it and keeps what has been read"),
+            (self.live, "play", "Shows the chosen channels continuously, as fast as the line carries"),
+            (self.cursors, "measure", "Two cursors: drag them, or choose one with A or B and move it with Ctrl+arrows"),
+            (self.sides_left, "settings", "What is captured, beside the curves"),
+            (self.sides_right, "program", "Readings and earlier captures, beside the curves"),
+        ):
+            button.setIcon(icon(name))
+            button.setToolTip(tip)
+            button.setAccessibleName(button.text())
+        for small, name, words, tip in (
+            (self.fit, "zoom_fit", "Fit", "Shows everything (double click)"),
+            (self.save, "save", "Save capture", "Saves the capture: CSV or NumPy"),
+            (self.open, "open", "Open capture", "Opens earlier captures"),
+            (self.picture, "export", "Save picture", "Saves the picture as it is on the screen"),
+        ):
+            small.setIcon(icon(name))
+            small.setAccessibleName(words)
+            small.setToolTip(f"{words}: {tip[:1].lower()}{tip[1:]}")
+            small.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            small.setProperty("role", "control")
+        for switch in (self.live, self.cursors, self.sides_left, self.sides_right):
+            switch.setCheckable(True)
+        self.capture.setProperty("role", "primary")
+        self.capture.setIcon(icon("record", "accent_text"))
+        for box, name in (
+            (self.views, "View"), (self.windows, "Window of the spectrum"), (self.across, "Across"),
+            (self.upward, "Upward"), (self.span, "Time shown live"),
+        ):  # fmt: skip
+            box.setAccessibleName(name)
+        self.views.addItems([str(view) for view in View])
+        self.span.addItems(list(SPANS))
+        for window in Window:
+            self.windows.addItem(str(window))
+            self.windows.setItemData(self.windows.count() - 1, WINDOW_WORDS[window], Qt.ItemDataRole.ToolTipRole)
+        self.progress.setAccessibleName("Progress of the capture")
+        self.progress.setTextVisible(False)
+        self.progress.setMaximumHeight(6)
+        for box in (self.across, self.upward):
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+            box.setMinimumContentsLength(12)
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        for widget in (self.capture, self.finish, self.cancel, self.live, self.span):
+            row.addWidget(widget)
+        row.addStretch(1)
+        for widget in (self.views, self.windows, self.upward, self.over, self.across, self.cursors):
+            row.addWidget(widget)
+        for widget in (self.sides_left, self.sides_right, self.fit, self.save, self.open, self.picture):
+            row.addWidget(widget)
+        state = QHBoxLayout()
+        state.addWidget(self.words, 1)
+        state.addWidget(self.progress, 2, Qt.AlignmentFlag.AlignVCenter)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addLayout(row)
+        column.addLayout(state)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Where there is little room some buttons show their icons only; their names and tips stay."""
+        super().resizeEvent(event)
+        for button in (self.cursors, self.sides_left, self.sides_right):
+            button.setText(button.accessibleName() if event.size().width() >= WORDY else "")
+
+    def _connect(self) -> None:
+        self.views.currentIndexChanged.connect(self.view_chosen)
+        for box in (self.windows, self.across, self.upward, self.span):
+            box.currentIndexChanged.connect(self.drawn_otherwise)
+
+
+def _left(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.1f} min"

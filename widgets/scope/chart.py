@@ -1,0 +1,292 @@
+"""The picture of the scope: strips one above the other, one for each scale, with one time and two cursors for all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pyqtgraph
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPixmap
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from widgets.parts.look import look
+from widgets.parts.plot import Plot
+
+FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
+FADED = 90  # opacity of an overlaid curve, of 255
+NAMES = ("A", "B")
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """One curve as it is drawn: `group` chooses its strip."""
+
+    label: str
+    unit: str
+    group: str
+    colour: QColor
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    dashed: bool = False
+    faded: bool = False
+
+
+class Strip(Plot):
+    """One scale of the picture; what is done to its time is done to all."""
+
+    def __init__(self, chart: Chart, name: str, equal: bool) -> None:
+        self._chart = chart
+        super().__init__(name, equal=equal)
+        self.items: list[Any] = []
+        self._pens: list[tuple[Any, ...]] = []
+        self.setMinimumHeight(60)
+
+    def fit(self) -> None:
+        self._chart.fit()
+        self.fitted.emit()
+
+    def fit_own(self) -> None:
+        """This strip alone."""
+        super().fit()
+
+    def picture(self) -> QPixmap:
+        return self._chart.grab()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if not self._chart.key(event):
+            super().keyPressEvent(event)
+
+    def show_lines(self, lines: Sequence[Line]) -> None:
+        """Draws these and no others; what has not changed its looks is only given its values."""
+        while len(self.items) > len(lines):
+            self.removeItem(self.items.pop())
+            self._pens.pop()
+        while len(self.items) < len(lines):
+            self.items.append(self.plot())
+            self._pens.append(())
+        for place, (item, line) in enumerate(zip(self.items, lines, strict=True)):
+            smooth = len(line.x) <= FEW
+            looks = (line.colour.rgba(), line.dashed, line.faded, smooth)
+            if looks != self._pens[place]:
+                self._pens[place] = looks
+                item.setPen(_pen(line, smooth))
+                item.setZValue(-1 if line.faded else 0)
+            item.setData(line.x, line.y, antialias=smooth, skipFiniteCheck=True)
+
+
+def _pen(line: Line, smooth: bool) -> Any:
+    colour = QColor(line.colour)
+    if line.faded:
+        colour.setAlpha(FADED)
+    style = Qt.PenStyle.DashLine if line.dashed else Qt.PenStyle.SolidLine
+    return pyqtgraph.mkPen(colour, width=1.6 if smooth else 1, style=style)
+
+
+class Chart(QWidget):
+    """Shows lines; cursors are at places of the time axis, None while they are hidden."""
+
+    cursors_moved = Signal()
+    panned = Signal()
+    fitted = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName("Curves")
+        self.strips: dict[str, Strip] = {}
+        self.cursors: list[float] | None = None
+        self._chosen = 0
+        self._step = 0.001
+        self._lines: dict[str, list[Any]] = {}
+        self._marks: dict[str, list[Any]] = {}
+        self._mark: tuple[float, float] | None = None
+        self._shape: tuple[object, ...] = ()
+        self._legends: dict[str, QLabel] = {}
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(2)
+
+    # ------------------------------------------------------------------ drawing
+
+    def show_lines(
+        self, lines: Sequence[Line], bottom: str, *, equal: bool = False, mark: tuple[float, float] | None = None,
+        step: float = 0.001,
+    ) -> None:  # fmt: skip
+        """`bottom` names the common axis; `mark` is the trigger and how much earlier it may have been."""
+        groups = list(dict.fromkeys(line.group for line in lines)) or [""]
+        self._step = step
+        shape = (bottom, equal, tuple(groups))
+        fresh = shape != self._shape
+        if fresh:
+            self._shape = shape
+            self._build(groups, bottom, equal)
+        for group, strip in self.strips.items():
+            mine = [line for line in lines if line.group == group]
+            strip.show_lines(mine)
+            self._name(group, mine, bottom)
+        if fresh or mark != self._mark:
+            self._mark = mark
+            self._draw_mark()
+        if fresh:
+            self._draw_cursors()
+            self.fit()
+
+    def _build(self, groups: list[str], bottom: str, equal: bool) -> None:
+        for strip in self.strips.values():
+            self._column.removeWidget(strip)
+            strip.hide()
+            strip.deleteLater()
+        self.strips, self._lines, self._marks, self._legends = {}, {}, {}, {}
+        first: Strip | None = None
+        for number, group in enumerate(groups):
+            strip = self.strips[group] = Strip(self, f"Curves of {group.lower()}" if group else "Curves", equal)
+            strip.panned.connect(self.panned)
+            strip.getViewBox().setMouseEnabled(x=True, y=True)
+            legend = self._legends[group] = QLabel(strip)
+            legend.setTextFormat(Qt.TextFormat.RichText)
+            legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            self._column.addWidget(strip, 1)
+            if first is None:
+                first = strip
+            else:
+                strip.setXLink(first)
+            last = number == len(groups) - 1
+            strip.getAxis("bottom").setStyle(showValues=last)
+            if not last:
+                strip.getAxis("bottom").setHeight(6)
+
+    def _name(self, group: str, lines: Sequence[Line], bottom: str) -> None:
+        """Left: what is shown, with its unit; above the curves their names in their colours."""
+        strip = self.strips[group]
+        units = list(dict.fromkeys(line.unit for line in lines if line.unit))
+        last = strip is list(self.strips.values())[-1]
+        words = f"{group} ({', '.join(units)})" if units and group else group or ", ".join(units)
+        if strip.getAxis("left").labelText != words:
+            strip.name_sides(bottom if last else "", words)
+            strip.getAxis("bottom").showLabel(last)
+            strip.getAxis("left").setWidth(self._left_px)
+        dash = {True: "┅", False: "━"}
+        names = dict.fromkeys((line.label, line.colour.name(), line.dashed) for line in lines if not line.faded)
+        text = "&nbsp;&nbsp;&nbsp;".join(
+            f'<span style="color:{colour}">{dash[dashed]} {label}</span>' for label, colour, dashed in names
+        )
+        legend = self._legends[group]
+        if legend.text() != text:
+            legend.setText(text)
+            legend.setFont(look().small_font())
+            legend.adjustSize()
+            legend.move(self._left_px + 12, 4)
+            legend.raise_()
+
+    @property
+    def _left_px(self) -> int:
+        """The same for all strips, so that their times stand under each other."""
+        return QFontMetrics(look().small_font()).horizontalAdvance("-000 000") + 34
+
+    def fit(self) -> None:
+        """Everything is shown."""
+        for strip in self.strips.values():
+            strip.fit_own()
+        self.fitted.emit()
+
+    def grab_picture(self) -> QPixmap:
+        """As it is on the screen."""
+        return self.grab()
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """From where to where the common axis is shown."""
+        strip = next(iter(self.strips.values()), None)
+        if strip is None:
+            return 0.0, 1.0
+        low, high = strip.getViewBox().viewRange()[0]
+        return float(low), float(high)
+
+    def show_range(self, low: float, high: float) -> None:
+        """The common axis from here to there; the other one follows its values."""
+        for strip in self.strips.values():
+            strip.getViewBox().enableAutoRange(axis="y")
+        next(iter(self.strips.values())).getViewBox().setXRange(low, high, padding=0.0)
+
+    # ------------------------------------------------------------------ cursors
+
+    def show_cursors(self, places: Sequence[float] | None) -> None:
+        """Both cursors at these places of the common axis; None hides them."""
+        self.cursors = None if places is None else list(places)
+        self._draw_cursors()
+        self.cursors_moved.emit()
+
+    def _draw_cursors(self) -> None:
+        for group, strip in self.strips.items():
+            for line in self._lines.pop(group, []):
+                strip.removeItem(line)
+            if self.cursors is not None:
+                self._lines[group] = [self._cursor(strip, number) for number in range(2)]
+
+    def _cursor(self, strip: Strip, number: int) -> Any:
+        assert self.cursors is not None
+        colour = look().colour("text")
+        dash = Qt.PenStyle.SolidLine if number == 0 else Qt.PenStyle.DashLine
+        line = pyqtgraph.InfiniteLine(
+            self.cursors[number], angle=90, movable=True, pen=pyqtgraph.mkPen(colour, width=1, style=dash),
+            hoverPen=pyqtgraph.mkPen(look().colour("accent"), width=3),
+            label=NAMES[number],
+            labelOpts={"position": 0.06, "color": look().colour("surface"), "fill": colour, "movable": False},
+        )  # fmt: skip
+        line.sigPositionChanged.connect(lambda moved, number=number: self._moved(number, float(moved.value())))
+        strip.addItem(line, ignoreBounds=True)
+        return line
+
+    def _moved(self, number: int, place: float) -> None:
+        if self.cursors is None or self.cursors[number] == place:
+            return
+        self.cursors[number] = place
+        self._chosen = number
+        for lines in self._lines.values():
+            if lines[number].value() != place:
+                lines[number].setValue(place)
+        self.cursors_moved.emit()
+
+    def key(self, event: QKeyEvent) -> bool:
+        """A and B choose a cursor, Ctrl with arrows moves it by one value, with Shift by ten."""
+        if self.cursors is None:
+            return False
+        if event.key() in (Qt.Key.Key_A, Qt.Key.Key_B):
+            self._chosen = int(event.key() == Qt.Key.Key_B)
+            return True
+        held = event.modifiers()
+        side = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(Qt.Key(event.key()), 0)
+        if not side or not held & Qt.KeyboardModifier.ControlModifier:
+            return False
+        far = 10 if held & Qt.KeyboardModifier.ShiftModifier else 1
+        self._moved(self._chosen, self.cursors[self._chosen] + side * far * self._step)
+        return True
+
+    # ------------------------------------------------------------------- details
+
+    def _draw_mark(self) -> None:
+        """A dotted line at the trigger, and a shade over the time in which it may have been."""
+        for group, strip in self.strips.items():
+            for item in self._marks.pop(group, []):
+                strip.removeItem(item)
+            if self._mark is None:
+                continue
+            at, early = self._mark
+            pen = pyqtgraph.mkPen(look().colour("quiet"), width=1, style=Qt.PenStyle.DotLine)
+            items: list[Any] = [pyqtgraph.InfiniteLine(at, angle=90, pen=pen)]
+            if early > 0:
+                shade = QColor(look().colour("quiet"))
+                shade.setAlpha(40)
+                items.append(pyqtgraph.LinearRegionItem((at - early, at), movable=False, brush=shade, pen=None))
+            for item in items:
+                strip.addItem(item, ignoreBounds=True)
+            self._marks[group] = items
+
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "_column"):
+            self._draw_cursors()
+            self._draw_mark()

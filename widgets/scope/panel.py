@@ -1,0 +1,65 @@
+"""The scope's dock: empty until it is first shown, because what draws curves takes a while to load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from widgets.panel import Panel
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from device.api import Controller, Row
+    from widgets.scope.body import Body
+
+
+class ScopePanel(Panel):
+    """Passes on what the body needs, once there is one."""
+
+    title = "Scope"
+    moves = True  # it writes in the controller, and where it floats STOP stays at hand
+    opened = Signal()  # the body has just been made
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.body: Body | None = None
+        self._document: Document | None = None
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(8, 8, 8, 8)
+        self.setMinimumSize(420, 160)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self.body is None:
+            from widgets.scope.body import Body
+
+            self.body = Body()
+            self._column.addWidget(self.body)
+            self.setFocusProxy(self.body.start)
+            self._tell()
+            self.opened.emit()
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self._tell()
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        self._document = new
+        if old is None or old.setup is not new.setup:
+            self._tell()
+
+    def refresh(self, row: Row) -> None:
+        if self.body is not None and self.controller is not None:
+            self._tell()
+            self.body.refresh(self.controller)
+
+    def _tell(self) -> None:
+        """Whose channels there are: the controller's, or while none is known those of the setup."""
+        if self.body is None or self._document is None:
+            return
+        setup = self._document.setup
+        model = self.controller.model if self.controller is not None else None
+        self.body.show_machine(model or setup.limits, setup)

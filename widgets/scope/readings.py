@@ -1,0 +1,160 @@
+"""What the curves say: values at the cursors, and measurements of the stretch between them or of what is shown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
+
+from device.curves import Measured, measure
+from widgets.parts.look import look
+
+FIGURES = 5
+DASH = "–"
+ROWS = (
+    "At A", "At B", "B − A", "Least", "Most", "Mean", "RMS", "Peak to peak", "Rise 10–90 %", "Frequency",
+    "Highest line",
+)  # fmt: skip
+
+
+OF_TIME = ("Least", "Mean", "RMS", "Peak to peak", "Rise 10–90 %", "Frequency")  # say nothing of a spectrum
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """One curve as it is read: `peak` is frequency and height of the highest line of its spectrum."""
+
+    label: str
+    unit: str
+    colour: QColor
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    peak: tuple[float, float] | None = None
+
+
+def figure(number: float, unit: str = "") -> str:
+    """A number as a person reads it, with its unit; a dash for none."""
+    if not math.isfinite(number):
+        return DASH
+    text = f"{number:.{FIGURES}g}"
+    text = f"{number:.0f}" if "e+" in text and abs(number) < 1e12 else text
+    return f"{text} {unit}".strip()
+
+
+def seconds(number: float) -> str:
+    """A time: ms below a second."""
+    if not math.isfinite(number):
+        return DASH
+    return f"{number * 1000:.5g} ms" if abs(number) < 1 else f"{number:.5g} s"
+
+
+def at(x: NDArray[np.float64], y: NDArray[np.float64], place: float) -> float:
+    """The value of the point nearest to a place, NaN outside."""
+    if not len(x) or not x[0] <= place <= x[-1]:
+        return math.nan
+    after = min(int(np.searchsorted(x, place)), len(x) - 1)
+    before = max(after - 1, 0)
+    return float(y[before] if place - x[before] < x[after] - place else y[after])
+
+
+class Readings(QTableWidget):
+    """A column for every curve; Ctrl+C copies it as text."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(len(ROWS), 0, parent)
+        self.setAccessibleName("Readings")
+        self.setVerticalHeaderLabels(list(ROWS))
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setAlternatingRowColors(True)
+        self.setShowGrid(False)
+        self.setWordWrap(False)
+        self.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.verticalHeader().setMinimumSectionSize(22)
+        self.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.horizontalHeader().setHighlightSections(False)
+        self._heads: list[tuple[str, str]] = []
+
+    def show_columns(
+        self, columns: Sequence[Column], cursors: Sequence[float] | None, shown: tuple[float, float]
+    ) -> None:
+        """`cursors` are the places of A and B, None without them; then what is `shown` is measured."""
+        heads = [(column.label, column.colour.name()) for column in columns]
+        fresh = heads != self._heads
+        if fresh:
+            self._heads = heads
+            self.setColumnCount(len(columns))
+            for place, (label, colour) in enumerate(heads):
+                head = QTableWidgetItem(label)
+                head.setForeground(QColor(colour))
+                self.setHorizontalHeaderItem(place, head)
+        low, high = sorted(cursors) if cursors is not None else shown
+        for place, column in enumerate(columns):
+            inside = (column.x >= low) & (column.x <= high)
+            found = measure(column.x[inside], column.y[inside])
+            for row, text in enumerate(_texts(column, cursors, found)):
+                self._write(row, place, text)
+        for row in range(3):
+            self.setRowHidden(row, cursors is None)
+        spectral = any(column.peak is not None for column in columns)
+        for name in OF_TIME:
+            self.setRowHidden(ROWS.index(name), spectral)
+        self.setRowHidden(len(ROWS) - 1, not spectral)
+        if fresh:
+            self.resizeColumnsToContents()
+
+    def words(self) -> str:
+        """The table as text, for the clipboard."""
+        rows = [row for row in range(self.rowCount()) if not self.isRowHidden(row)]
+        lines = ["\t".join(["", *(label for label, _ in self._heads)])]
+        for row in rows:
+            lines.append("\t".join([ROWS[row], *(self.text(row, place) for place in range(self.columnCount()))]))
+        return "\n".join(lines)
+
+    def text(self, row: int, place: int) -> str:
+        item = self.item(row, place)
+        return item.text() if item is not None else ""
+
+    def reading(self, row: str, label: str) -> str:
+        """What stands in a row under a curve's name."""
+        return self.text(ROWS.index(row), [head for head, _ in self._heads].index(label))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_C and event.modifiers() == Qt.KeyboardModifier.ControlModifier:
+            QGuiApplication.clipboard().setText(self.words())
+            return
+        super().keyPressEvent(event)
+
+    def _write(self, row: int, place: int, text: str) -> None:
+        item = self.item(row, place)
+        if item is None:
+            item = QTableWidgetItem()
+            item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            item.setFont(look().digits_font(look().body_points))
+            self.setItem(row, place, item)
+        if item.text() != text:
+            item.setText(text)
+
+
+def _texts(column: Column, cursors: Sequence[float] | None, found: Measured) -> tuple[str, ...]:
+    unit = column.unit
+    first, second = (at(column.x, column.y, place) for place in cursors) if cursors is not None else (math.nan,) * 2
+    peak = f"{figure(column.peak[1], unit)} at {figure(column.peak[0], 'Hz')}" if column.peak is not None else ""
+    return (
+        figure(first, unit),
+        figure(second, unit),
+        figure(second - first, unit),
+        figure(found.least, unit),
+        figure(found.most, unit),
+        figure(found.mean, unit),
+        figure(found.rms, unit),
+        figure(found.peak_to_peak, unit),
+        seconds(found.rise_s),
+        figure(found.frequency_hz, "Hz"),
+        peak,
+    )
