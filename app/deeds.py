@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from app.compose import Studio
 
 LISTENED = "listened"  # the property of a widget whose use is told
+LISTEN_TICKS = 5  # between two panels: buttons may be made at any time
 
 
 class Deeds(QObject):
@@ -32,7 +33,7 @@ class Deeds(QObject):
     def __init__(self, studio: Studio, tell: Callable[[str], None]) -> None:
         super().__init__(studio)
         self._studio, self._tell = studio, tell
-        self._edits = len(studio.session.history.past)
+        self._edits, self._turn = len(studio.session.history.past), -1
         for action in (*studio.actions.actions.values(), *studio.program.commands.values()):
             action.triggered.connect(self._acted)
         studio.terminal.send.setProperty(LISTENED, True)  # the command itself is told
@@ -44,17 +45,16 @@ class Deeds(QObject):
             application.focusChanged.connect(self._focused)
 
     def look(self) -> None:
-        """With each tick: the last edit of the program."""
+        """With each tick: the last edit of the program; what is new in one panel after the other."""
+        panels = self._studio.panels
+        self._turn = (self._turn + 1) % (LISTEN_TICKS * len(panels))
+        if self._turn % LISTEN_TICKS == 0:
+            self._listen_to(panels[self._turn // LISTEN_TICKS])
         past = self._studio.session.history.past
         if len(past) != self._edits:
             self._edits = len(past)
             if past:
                 self._tell(f"Program: {past[-1].label}")
-
-    def listen(self) -> None:
-        """To everything in the panels there are."""
-        for panel in self._studio.panels:
-            self._listen_to(panel)
 
     def _focused(self, old: QWidget | None, new: QWidget | None) -> None:
         if new is None:

@@ -225,7 +225,6 @@ class Recorded(QObject):
 
     def _exchanged(self, controller: Controller) -> None:
         """Something else is connected: the replay is over."""
-        self._deeds.listen()
         if controller.kind is not Kind.REPLAY and self.player is not None:
             self.player = self.recording = None
             self._panel.show_recorded(*self._kept())

@@ -70,7 +70,7 @@ class Tick(QObject):
             call()
 
     def _refresh(self, controller: Controller) -> None:
-        shown = [panel for panel in self._panels if panel.isVisible() and not panel.visibleRegion().isEmpty()]
+        shown = [panel for panel in self._panels if panel.in_sight]
         wanted = frozenset(key for panel in shown for key in panel.watches())
         if wanted != self._watched:
             self._watched = wanted

@@ -23,6 +23,11 @@ class Panel(QWidget):
         self.setProperty("helpPage", self.title)
         self.controller: Controller | None = None
 
+    @property
+    def in_sight(self) -> bool:
+        """Whether any of it can be seen: what stands behind another tab is visible too, as Qt has it."""
+        return self.isVisible() and not self.visibleRegion().isEmpty()
+
     def attach(self, controller: Controller) -> None:
         """Another controller (or none) is worked with from now on."""
         self.controller = controller

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -19,9 +21,12 @@ from app.settings import Settings
 from codegen.instructions import Output, SingleAxisMove, Wait
 from codegen.setup import Axis, Setup, Unit
 from device.api import Badge, LineSettings, State, StopState
+from device.recorder import Recorder
+from device.simulator.process import SimulatorProcess
 from tests.app.hands import until
 from tests.long import count, record
 from tests.stage import Stage
+from tests.widgets.program.test_speed import FULL_SPEED_MS, beside
 
 LIMIT_MS = 50.0
 STEPS = 60
@@ -76,9 +81,10 @@ def test_no_tick_takes_long_whatever_the_controller_does(stage: Stage) -> None:
 
 @pytest.fixture
 def studio(tmp_path: Path, qapp: QApplication) -> Iterator[Studio]:
-    """A studio with its own threads, timer and simulator process."""
-    settings = Settings(tmp_path / "settings.json")
-    studio = Studio(qapp, settings, tmp_path, connector(tmp_path / "programs", lambda: 600.0), list, Pages())
+    """A studio with its own threads, timer, recorder and simulator process."""
+    settings, recorder = Settings(tmp_path / "settings.json"), Recorder(tmp_path / "recordings")
+    connect = connector(tmp_path / "programs", lambda: 600.0, recorder=recorder)
+    studio = Studio(qapp, settings, tmp_path, connect, list, Pages(), recorder=recorder)
     studio.window.show()
     studio.tick.start()
     yield studio
@@ -128,6 +134,7 @@ def test_the_window_answers_while_the_link_works(studio: Studio) -> None:
     studio.session.set_setup(Setup(model="ssc1").with_axis("X", Axis(unit=Unit.MM, counts_per_unit="1000")))
     long_program(studio.session)
     until(lambda: studio.window.isVisible(), "the window")
+    studio.window.resize(1280, 800)
     for _ in range(20):
         QApplication.processEvents()
 
@@ -141,8 +148,9 @@ def test_the_window_answers_while_the_link_works(studio: Studio) -> None:
     def stopped() -> bool:
         return studio.connection.controller.stop_state is StopState.STOPPED
 
-    studio.connection.open_simulator("ssc1", LineSettings(baud=19200))
-    phase("connecting", lambda: None, lambda: studio.connection.controller.state is State.READY)
+    before = beside()
+    connect = partial(studio.connection.open_simulator, "ssc1", LineSettings(baud=19200))
+    phase("connecting", connect, lambda: studio.connection.controller.state is State.READY)
     for turn in range(count(1, 5)):
         phase(f"downloading {turn}", studio.run.download, lambda: not studio.run.doing)
         assert studio.connection.controller.program_badge is Badge.SAME
@@ -150,9 +158,17 @@ def test_the_window_answers_while_the_link_works(studio: Studio) -> None:
         phase(f"stopping {turn}", studio.connection.stop, stopped)
     world = studio.connection.world
     assert world is not None
+    with SimulatorProcess("ssc1", pty=os.name == "posix", baud=19200) as other:
+        studio.doctor.show()
+        assert studio.doctor.window is not None
+        examined = partial(studio.doctor.examine, other.address)
+        phase("examining a line", examined, lambda: studio.doctor.job is None)
+        studio.doctor.window.close()
     ending = threading.Thread(target=world.close)  # type: ignore[attr-defined]
     phase("losing the line", ending.start, lambda: studio.connection.controller.state is State.LOST)
     ending.join()
     for name, pauses in found.items():
         record(f"longest pause of the window while {name}", "pytest tests/app/test_speed.py", None, pauses[0], "ms")
-    assert {name: pauses[:3] for name, pauses in found.items() if pauses[1] > LIMIT_MS} == {}
+    print({name: [round(each, 1) for each in pauses[:4]] for name, pauses in found.items()})
+    limit = LIMIT_MS * max(1.0, max(before, beside()) / FULL_SPEED_MS)
+    assert {name: pauses[:3] for name, pauses in found.items() if pauses[1] > limit} == {}

@@ -93,7 +93,7 @@ class SimulatorPanel(Panel):
         letters = controller.axes or "X"
         names = self._setup.input_names if self._setup is not None else ()
         wanted = (inputs, analog, letters, tuple(names))
-        if wanted == self._built:
+        if wanted == self._built or not self.in_sight:  # made when it is shown: connecting must not wait for it
             return
         self._built = wanted
         inside = QWidget()

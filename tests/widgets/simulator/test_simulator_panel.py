@@ -30,6 +30,7 @@ def rig() -> Rig:
 def panel(qtbot: QtBot, rig: Rig) -> SimulatorPanel:
     panel = SimulatorPanel()
     qtbot.addWidget(panel)
+    panel.show()
     panel.show_document(None, Document())
     panel.attach(rig.controller)
     panel.signals = []  # type: ignore[attr-defined]
