@@ -307,7 +307,7 @@ class JogPanel(Panel):
             self.empty.setVisible(not linked)
             self._area.setVisible(linked)
             self._foot.setVisible(linked)
-        if not linked or not self.isVisible() or self._setup is None or controller is None:
+        if not linked or not self.in_sight or self._setup is None or controller is None:
             return
         if self.one is None:
             self._make_pages(self._setup)
