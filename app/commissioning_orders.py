@@ -50,6 +50,7 @@ class Orders:
     def carry_out(self, name: str) -> None:
         """A button was pressed; a field that is wrong is said, and nothing is sent."""
         self._d.note = ""
+        self._d.controller.used()
         try:
             self._does[name]()
         except NotTyped as wrong:
@@ -72,7 +73,7 @@ class Orders:
 
     def _off(self) -> None:
         d = self._d
-        d.run("Switching the motor off", moves.switch_off(d.controller, d.record.axis), lambda _: None)
+        d.run("Switching the motor off", moves.motor_off(d.controller, d.record.axis), lambda _: None)
 
     def _safety(self) -> None:
         d = self._d
@@ -238,7 +239,7 @@ class Orders:
                 finding = dc.replace(finding, sentence="It has moved. Type what you measured and press “Judge”.")
             d.found(finding)
 
-        self._move(Trial(d.record.axis, counts, error, self._torque()), done)
+        self._move(Trial(d.record.axis, counts, error, self._torque(), d.axis.is_stepper), done)
 
     def _measured(self) -> None:
         d = self._d
@@ -318,5 +319,5 @@ def _told(name: str, value: int) -> str:
     """A register in words: `1 V`, `2000 counts`, `off` for a limit that is none."""
     if name in ("FL", "BL") and abs(value // ONE) >= 2**31 - 1:
         return "off"
-    number = f"{value / ONE:.2f}".rstrip("0").rstrip(".")
+    number = f"{value / ONE:.3f}".rstrip("0").rstrip(".")
     return f"{number} {UNITS[name]}".strip()

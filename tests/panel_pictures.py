@@ -80,3 +80,48 @@ def doctor_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go()
     yield "doctor-silence", window
     window.close()
+
+
+def commissioning_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """A feeder's axis with its motor leads exchanged, step by step up to the wrong polarity, and the report."""
+    import dataclasses as dc
+
+    from codegen.setup import Unit
+    from device.api import Kind
+    from tests.widgets.commissioning.person import Person
+
+    document = stage.studio.session.document
+    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit="1000")
+    setup = dc.replace(document.setup, name="Feeder", axes=(axis,) * 4)
+    stage.studio.session.set_document(dc.replace(document, setup=setup), "A feeder")
+    person = Person(stage, "ssc2", Kind.MACHINE, motor_reversed=True)
+    person.safety()
+    yield "commissioning-safety", person.window
+    person.next()
+    person.encoder(20_000)
+    yield "commissioning-scale", person.window
+    person.press("take_scale")
+    person.next()
+    person.press("begin_switches")
+    stage.until(lambda: person.desk.switches is not None and bool(person.desk.switches.rest))
+    person.trip("fls_x")
+    yield "commissioning-switches", person.window
+    person.trip("rls_x")
+    person.trip("home_x")
+    person.next()
+    person.press("guards")
+    person.next()
+    person.press("polarity")
+    yield "commissioning-polarity", person.window
+    person.desk.show_report()
+    assert person.desk.preview is not None
+    stage.go()
+    yield "commissioning-report", person.desk.preview
+    person.desk.preview.close()
+    person.window.close()
+    sine = Person(stage, "dmc1412", hall_inputs=5, hall_offset=30.0)
+    sine.window.sine.setChecked(True)
+    sine.desk.choose(4)
+    stage.go()
+    yield "commissioning-sine", sine.window
+    sine.window.close()

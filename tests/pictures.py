@@ -154,7 +154,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     """A rounded rectangle as the X-Y view saw it."""
     import dataclasses as dc
 
-    from tests.panel_pictures import doctor_scenes, event_scenes, replay_scenes
+    from tests.panel_pictures import commissioning_scenes, doctor_scenes, event_scenes, replay_scenes
 
     studio, document = stage.studio, stage.studio.session.document
     axis = dc.replace(document.setup.axes[0], reverse_limit="-5", forward_limit="25")
@@ -172,6 +172,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from _values(stage)
     yield from event_scenes(stage)
     yield from doctor_scenes(stage)
+    yield from commissioning_scenes(stage)
     yield from replay_scenes(stage)
 
 

@@ -144,8 +144,8 @@ def _scale(found: Fraction, axis: Axis, allowed: Fraction, facts: tuple[tuple[st
     if abs(ratio - 1) <= allowed:
         return Finding(PASSED, f"{good}, {shown(found)} counts in 1 {axis.symbol}, as the setup has it.", (), facts)
     words = (
-        f"The scale is wrong: {shown(found)} counts in 1 {axis.symbol} were measured, the setup says "
-        f"{shown(axis.scale)}, which is {shown(1 / ratio, 3)} times as many."
+        f"The scale is wrong: {shown(found)} counts in 1 {axis.symbol} were measured, {shown(ratio, 3)} times the "
+        f"{shown(axis.scale)} of the setup."
     )
     return Finding(FAILED, words, _scale_causes(ratio), facts)
 

@@ -53,6 +53,7 @@ class Trial:
     counts: int
     error: int = TRIAL_ERROR
     torque: Fraction = Fraction(1)
+    stepper: bool = False  # it may have no encoder: where it is, is where it is commanded to be
 
     @property
     def problem(self) -> str:
@@ -65,6 +66,13 @@ class Trial:
 
 
 # ----------------------------------------------------------------------- without motion
+
+
+def motor_off(c: Controller, axis: str) -> Steps[bool]:
+    """As a step of its own: not under a running program."""
+    model = ready(c, axis, "Not switched off")
+    yield from still(c, model, "Not switched off")
+    return (yield from switch_off(c, axis))
 
 
 def switch_off(c: Controller, axis: str, what: str = "Not done") -> Steps[bool]:
@@ -144,18 +152,15 @@ def _driven(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Ste
     axis, exchange = trial.axis, _exchange(c)
     start = former.place
     low, high = sorted((start, start + trial.counts))
-    limits = {
+    guards = {
         "OE": ONE,
         "ER": scaled(trial.error),
         "TL": min(COMMANDS["TL"].stored(scaled(trial.torque)), former.values["TL"]),
         "FL": scaled(high + MARGIN),
         "BL": scaled(low - MARGIN),
-        "SP": scaled(SPEED),
-        "AC": scaled(RAMP),
-        "DC": scaled(RAMP),
-        "IT": ONE,
     }
-    yield from assign(c, axis, limits)
+    pace = {"SP": scaled(SPEED), "AC": scaled(RAMP), "DC": scaled(RAMP), "IT": ONE}
+    yield from assign(c, axis, guards | pace)
     job.show("moving", 0, abs(trial.counts))
     yield from _said(c, f"SH {axis}")
     try:
@@ -170,9 +175,10 @@ def _driven(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Ste
 def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: Job[Moved]) -> Steps[Moved]:
     """Looks until the move has ended and settled, or left its bounds; then the motor is off."""
     axis, places = trial.axis, [start]
+    where = f"_{'RP' if trial.stepper else 'TP'}{axis}"
     end, settled, bounded = c.clock() + LONGEST_S, 0.0, False
     while True:
-        told = yield from exchange.read((f"_MO{axis}", FLAG), (f"_BG{axis}", FLAG), (f"_TP{axis}", COUNTS))
+        told = yield from exchange.read((f"_MO{axis}", FLAG), (f"_BG{axis}", FLAG), (where, COUNTS))
         if told is None or job.cancelled or c.clock() > end:
             raise LinkError("The move was ended from here; the motor is off.")
         off, moving, place = (int(value) for value in told)
@@ -187,7 +193,7 @@ def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: J
             break
     volts = yield from exchange.read((f"_TT{axis}", VOLTS))
     yield from _off(c, axis)
-    told = yield from exchange.read((f"_SC{axis}", CODE), (f"_RP{axis}", COUNTS), (f"_TP{axis}", COUNTS))
+    told = yield from exchange.read((f"_SC{axis}", CODE), (f"_RP{axis}", COUNTS), (where, COUNTS))
     if told is None or volts is None:
         raise LinkLost("The controller stopped answering.")
     code, commanded, last = (int(value) for value in told)

@@ -147,7 +147,7 @@ STEPS: tuple[Step, ...] = (
         "dmc-1412-1414.txt l.671-687; SSC manual l.916",
         moves=True,
         optional=True,
-        needs=("polarity",),
+        needs=("safety", "switches", "polarity"),
     ),
     Step(
         "limits",

@@ -117,6 +117,12 @@ def _handover(stage: Stage) -> QWidget:
     return stage.studio.proof.handing.page.changes
 
 
+def _commissioning(stage: Stage) -> QWidget:
+    stage.studio.commissioning.show()
+    assert stage.studio.commissioning.window is not None
+    return stage.studio.commissioning.window.steps
+
+
 def _prompt(stage: Stage) -> QWidget:
     rig = stage.question()
     assert rig.running == [ASKS]
@@ -143,6 +149,7 @@ PLACES: dict[str, Callable[[Stage], QWidget]] = {
     "the steps to replace": _replacing,
     "the comparison": _compare,
     "the handover": _handover,
+    "the list that brings an axis to life": _commissioning,
     "help": _help,
     "a file dialog": _file_dialog,
     "a half-typed command": _terminal,

@@ -113,8 +113,12 @@ class PageView(QWidget):
         column.addWidget(self.blocked)
         if page.readings:
             column.addWidget(self._make_readings(page))
-        for tick in page.ticks:
-            column.addWidget(self._make_tick(tick.name, tick.label))
+        if page.ticks:
+            ticks = QVBoxLayout()
+            ticks.setSpacing(0)
+            for tick in page.ticks:
+                ticks.addWidget(self._make_tick(tick.name, tick.label))
+            column.addLayout(ticks)
         if page.fields:
             column.addLayout(self._make_fields(page))
         column.addLayout(self._make_acts(page))
@@ -183,11 +187,10 @@ class PageView(QWidget):
         row = QHBoxLayout()
         row.setSpacing(8)
         for act in page.acts:
-            button = QPushButton(act.label)
+            button = QPushButton(f" {act.label}" if act.moves else act.label)
             button.setAutoDefault(False)
-            button.setMinimumHeight(look().space["touch"] if act.moves else look().control)
-            if act.primary:
-                button.setProperty("role", "primary")
+            if act.moves:  # for gloves
+                button.setStyleSheet(f"QPushButton {{ min-height: {look().space['touch'] - 4}px; }}")
             if act.moves:
                 button.setIcon(icon("warning", "accent_text" if act.primary else "warning"))
                 button.setIconSize(QSize(18, 18))
@@ -209,6 +212,9 @@ class Result(QFrame):
         self.mark, self.word, self.sentence = Mark(), _words("", wrap=False), _words("")
         self.advice, self.facts, self.links = _words(""), _words("quiet"), _words("quiet")
         self.word.setAccessibleName("Result")
+        bold = look().body_font()
+        bold.setBold(True)
+        self.word.setFont(bold)
         self.facts.setTextFormat(Qt.TextFormat.RichText)
         self.advice.setTextFormat(Qt.TextFormat.RichText)
         self.links.linkActivated.connect(self.help_wanted)
@@ -255,7 +261,7 @@ def _link(page: str, words: str, colour: str) -> str:
 def _heading(page: Page) -> QVBoxLayout:
     title, source = QLabel(page.heading), _words("quiet")
     title.setProperty("role", "title")
-    source.setText(f"{page.source}" if page.source else "")
+    source.setText(f"Judged: {page.judged}.\nSource: {page.source}.")
     source.setFont(look().small_font())
     source.setVisible(bool(page.source))
     column = QVBoxLayout()
@@ -269,8 +275,7 @@ def _todo(page: Page) -> QLabel:
     words = _words("")
     words.setTextFormat(Qt.TextFormat.RichText)
     items = "".join(f"<li style='margin-bottom: 6px'>{escape(each)}</li>" for each in page.todo)
-    judged = f"<p style='margin-top: 6px'>Judged: {escape(page.judged)}.</p>" if page.judged else ""
-    words.setText(f"<ol style='margin-left: -20px; margin-top: 0; margin-bottom: 0'>{items}</ol>{judged}")
+    words.setText(f"<ol style='margin-left: -20px; margin-top: 0; margin-bottom: 0'>{items}</ol>")
     return words
 
 
@@ -281,6 +286,9 @@ def _words(role: str, wrap: bool = True) -> QLabel:
         label.setProperty("role", role)
     if wrap:
         label.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        label.setMinimumHeight(
+            1
+        )  # else its height at the narrowest width counts, and there is a scroll bar for nothing
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label
 
@@ -295,6 +303,7 @@ def _show_field(editor: QLineEdit | QComboBox, field: Entered) -> None:
 
 
 def _show_act(button: QPushButton, act: Act) -> None:
+    show_role(button, "primary" if act.primary else "")
     if button.isEnabled() == bool(act.reason):
         button.setEnabled(not act.reason)
     if button.toolTip() != act.reason:

@@ -59,6 +59,7 @@ def _row(line: Line) -> str:
     when = f"<br/><span class='quiet'>{escape(line.when)}</span>" if line.when else ""
     found = f"{escape(line.sentence)}{advice}{figures}<br/><span class='quiet'><i>{escape(line.source)}</i></span>"
     return (
+        "<tr><td colspan='3' style='font-size: 4pt'>&nbsp;</td></tr>"
         f"<tr><td width='5%'><b>{SIGNS[line.mark]}</b></td>"
         f"<td width='25%'><b>{escape(line.title)}</b><br/>{MARK_WORDS[line.mark]}{when}</td><td>{found}</td></tr>"
     )

@@ -25,7 +25,7 @@ class StepsList(QListWidget):
         self.setItemDelegate(StepDelegate(self))
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setUniformItemSizes(True)
-        self.setFixedWidth(272)
+        self.setFixedWidth(288)
 
     def show_entries(self, entries: Sequence[Entry], current: int) -> None:
         """Keeps the items where they are the same."""

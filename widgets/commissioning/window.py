@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -55,7 +55,7 @@ class CommissioningWindow(QDialog):
         self.back, self.next = QPushButton("Back"), QPushButton("Next")
         self.skip, self.again = QPushButton("Skip this step"), QPushButton("Start again…")
         self.report, self.close_ = QPushButton("Report…"), QPushButton("Close")
-        self._area, self._key = QScrollArea(), ""
+        self._area, self._key, self._said = QScrollArea(), "", ""
         self._lay_out()
         self._join()
 
@@ -92,11 +92,13 @@ class CommissioningWindow(QDialog):
 
     def show_page(self, page: Page) -> None:
         """The present step; a new one is shown from its beginning."""
-        another = page.key != self._key
-        self._key = page.key
+        another, said = page.key != self._key, page.sentence != self._said
+        self._key, self._said = page.key, page.sentence
         self.page.show_page(page)
         if another:
             self._area.verticalScrollBar().setValue(0)
+        elif said and page.sentence:
+            QTimer.singleShot(0, self, lambda: self._area.ensureWidgetVisible(self.page.result))  # once laid out
 
     def show_stop(self, kind: Kind, state: StopState) -> None:
         """What is connected, and what has become of the last stop."""
@@ -167,4 +169,4 @@ class CommissioningWindow(QDialog):
         column.addLayout(head)
         column.addWidget(self.frame, 1)
         column.addLayout(foot)
-        self.resize(1120, 800)
+        self.resize(QSize(1120, 870).boundedTo(self.screen().availableSize()))

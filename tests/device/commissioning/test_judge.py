@@ -47,7 +47,7 @@ def turned(*counts: int) -> Turned:
             (0, 500, 1250),
             "5",
             Verdict.FAILED,
-            "250 counts in 1 mm were measured, the setup says 1000, which is 4 times",
+            "250 counts in 1 mm were measured, 0.25 times the 1000",
         ),
         ((0, 5), "5", Verdict.OPEN, "move it further"),
         ((0, 5000), "", Verdict.OPEN, "a number is missing"),
