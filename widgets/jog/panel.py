@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -14,12 +13,15 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 
 from device.api import Kind, State
 from widgets.display.display import Column
-from widgets.display.readings import marks_of, unit_of
+from widgets.display.readings import marks_of
+from widgets.jog.arrows import ARROWS, MODIFIERS, WITH, ArrowLine
 from widgets.jog.ends import ghost_of, places_of
 from widgets.jog.hold import Holder
-from widgets.jog.speed import usual
+from widgets.jog.pages import ARC, LINE, NAMES, ONE, POINTS, STICK, Pages, row_of
+from widgets.jog.speed import key_of, speeds_of
 from widgets.jog.stack import Stack
 from widgets.panel import Panel, set_text, show_role
+from widgets.parts.axis_bar import Marks
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -34,19 +36,7 @@ if TYPE_CHECKING:
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to move axes from here."
 WATCHED = "This is Watch: switch to Control to move axes."
 NOT_READY = "The controller does not answer at the moment."
-PAGES = ("One axis", "Line", "Arc", "Stick", "Points")
-ONE, LINE, ARC, STICK, POINTS = range(5)
-ARROWS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
-MODIFIERS = (Qt.Key.Key_Shift, Qt.Key.Key_Control, Qt.Key.Key_Alt, Qt.Key.Key_Meta, Qt.Key.Key_AltGr)
-WITH = (
-    Qt.KeyboardModifier.ShiftModifier
-    | Qt.KeyboardModifier.ControlModifier
-    | Qt.KeyboardModifier.AltModifier
-    | Qt.KeyboardModifier.MetaModifier
-)
-KEYS, MOUSE, ON_SCREEN, PAD = "keys", "mouse", "stick", "pad"
-ARROWS_OFF = "○ Arrow keys: click here to use them for {}"
-ARROWS_ON = "● ← → hold {}, with Shift one increment"
+KEYS, PAD = "keys", "pad"
 
 
 class JogPanel(Panel):
@@ -83,16 +73,34 @@ class JogPanel(Panel):
         self.holder = Holder(self)
         self.holder.renewed.connect(self.renewed)
         self.holder.released.connect(self.released)
-        self.one: OneAxisPage | None = None
-        self.line: TogetherPage | None = None
-        self.arc: TogetherPage | None = None
-        self.drive: DrivePage | None = None
-        self.saved: SavedPage | None = None
-        self.pages, self.buttons = Stack(), [QPushButton(name) for name in PAGES]
-        self.empty, self.result, self.arrows = QLabel(OFFLINE), QLabel(), QLabel()
+        self._made = Pages(self)
+        self.pages, self.buttons = Stack(), [QPushButton(name) for name in NAMES]
+        self.open_page = ONE
+        self.empty, self.result, self.arrows = QLabel(OFFLINE), QLabel(), ArrowLine()
         self.halt = QPushButton("Stop this move")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self._lay_out()
+
+    @property
+    def one(self) -> OneAxisPage | None:
+        """The pages, as far as they were opened."""
+        return self._made.one
+
+    @property
+    def line(self) -> TogetherPage | None:
+        return self._made.line
+
+    @property
+    def arc(self) -> TogetherPage | None:
+        return self._made.arc
+
+    @property
+    def drive(self) -> DrivePage | None:
+        return self._made.drive
+
+    @property
+    def saved(self) -> SavedPage | None:
+        return self._made.saved
 
     # ---- what it shows
 
@@ -135,9 +143,7 @@ class JogPanel(Panel):
         if reason:
             self.holder.let_go()
         key = f"position.{self.axis.lower()}"
-        marks = marks_of(row, self.axis, self._setup.axis(self.axis))
-        if row.stale(key, now):
-            marks = dc.replace(marks, actual=math.nan, commanded=math.nan)
+        marks = Marks() if row.stale(key, now) else marks_of(row, self.axis, self._setup.axis(self.axis))
         places = places_of(row, self._moved(), self._setup, now)
         page = self.pages.currentWidget()
         looked_at = getattr(page, "looked_at", None)
@@ -195,7 +201,7 @@ class JogPanel(Panel):
 
     def _moved(self) -> str:
         """The axes that the open page moves."""
-        page = self.pages.currentIndex()
+        page = self.open_page
         together = {LINE: self.line, ARC: self.arc}.get(page)
         if together is not None:
             return "".join(letter for letter in together.item.axes if letter in self._letters)
@@ -205,13 +211,15 @@ class JogPanel(Panel):
 
     # ---- holding
 
-    def _hold(self, owner: str, sign: int) -> None:
+    def hold(self, owner: str, sign: int) -> None:
+        """Begins to move the axis of the first page while somebody holds."""
         if self.one is None or self.reason or self.one.problem or not self.holder.begin(owner):
             return
         pace = self.one.pace
         self.hold_wanted.emit(self.axis, sign * pace.speed, pace.acceleration, pace.deceleration, owner)
 
-    def _run(self, sign: int) -> None:
+    def run(self, sign: int) -> None:
+        """A latched jog; 0 ends it."""
         if sign == 0:
             self.released.emit("")
         elif self.one is not None and not self.reason and not self.one.problem:
@@ -244,10 +252,10 @@ class JogPanel(Panel):
     @property
     def pad_wanted(self) -> bool:
         """Whether a gamepad may move something: only on the page of the stick, in the window in front."""
-        return self.pages.currentIndex() == STICK and self.seen and self.isActiveWindow()
+        return self.open_page == STICK and self.seen and self.isActiveWindow()
 
     def _drives(self) -> bool:
-        return not self.reason and self.pages.currentIndex() == STICK and self.seen
+        return not self.reason and self.open_page == STICK and self.seen
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Arrows hold, with Shift they go one increment; only while the panel itself has the focus."""
@@ -255,14 +263,14 @@ class JogPanel(Panel):
         sign = ARROWS.get(key)
         if self.holder.owner == KEYS and not event.isAutoRepeat():  # another key: it is not clear what is meant
             self.holder.let_go()
-        elif sign is None or self.pages.currentIndex() != ONE or self.one is None:
+        elif sign is None or self.open_page != ONE or self.one is None:
             super().keyPressEvent(event)
         elif not event.isAutoRepeat():
             pressed = event.modifiers() & WITH
             if pressed == Qt.KeyboardModifier.ShiftModifier:
                 (self.one.forward if sign > 0 else self.one.back).click()
             elif not pressed and not self.one.latch.isChecked():
-                self._hold(KEYS, sign)
+                self.hold(KEYS, sign)
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:
         key = Qt.Key(event.key())
@@ -292,103 +300,78 @@ class JogPanel(Panel):
 
     def _show_arrows(self) -> None:
         """Whether the arrow keys move something now."""
-        on = self.hasFocus() and self.pages.currentIndex() == ONE and not self.reason
-        set_text(self.arrows, (ARROWS_ON if on else ARROWS_OFF).format(self.axis))
-        show_role(self.arrows, "ok" if on else "quiet")
-        self.arrows.setVisible(self.pages.currentIndex() == ONE)
+        self.arrows.show_on(self.hasFocus() and not self.reason, self.axis)
+        self.arrows.setVisible(self.open_page == ONE)
 
     # ---- arrangement
 
     def _fit(self) -> None:
-        """Pages for the machine that is connected; made when first shown."""
+        """The open page for the machine that is connected; made when it is seen, whatever is connected."""
         controller = self.controller
         linked = controller is not None and controller.kind is not Kind.OFFLINE and self._setup is not None
         if self.empty.isVisibleTo(self) == linked:
             self.empty.setVisible(not linked)
             self._area.setVisible(linked)
             self._foot.setVisible(linked)
-        if not linked or not self.in_sight or self._setup is None or controller is None:
+        if controller is None or self._setup is None or not self.seen:
             return
-        if self.one is None:
-            self._make_pages(self._setup)
+        page = self._made.page(self.open_page, self._setup)
+        if self.pages.currentWidget() is not page:
+            if self.pages.indexOf(page) < 0:
+                self.pages.addWidget(page)
+                self._fitted.pop(page, None)
+            self.pages.setCurrentWidget(page)
+            self.pages.updateGeometry()
         wanted = (self._setup, controller.axes or self._setup.letters)
-        if wanted != self._fitted:
-            self._fitted = wanted
-            self._show_setup(*wanted)
+        if linked and wanted != self._fitted.get(page):
+            self._fitted[page] = wanted
+            self._show_setup(page, *wanted)
 
-    def _show_setup(self, setup: Setup, letters: str) -> None:
-        assert self.one and self.line and self.arc and self.drive and self.saved
+    def _show_setup(self, page: QWidget, setup: Setup, letters: str) -> None:
         self._letters = letters
-        self.one.show_setup(setup, letters)
-        self.line.show_setup(setup)
-        self.arc.show_setup(setup)
-        self.drive.show_setup(setup, letters)
-        self.saved.show_setup(setup, letters)
+        if page in (self.line, self.arc):
+            page.show_setup(setup)  # type: ignore[attr-defined]
+        else:
+            page.show_setup(setup, letters)  # type: ignore[attr-defined]
         self._show_kept()
+        if page is self.saved:
+            self.saved.show_points(self._points)
+        if self.drive is not None:
+            self.drive.show_pad(self._pad_words)
         for button in (self.buttons[LINE], self.buttons[ARC]):
             button.setVisible(len(letters) > 1)
-        if len(letters) == 1 and self.pages.currentIndex() in (LINE, ARC):
+        if len(letters) == 1 and self.open_page in (LINE, ARC):
             self._open(ONE)
 
     def _show_kept(self) -> None:
-        if self.one is None or self._setup is None or self.drive is None or self.saved is None:
+        if self._setup is None:
             return
-        speeds = {letter: self._speeds_of(letter, self._setup) for letter in self._letters or self._setup.letters}
-        self.one.show_speeds(speeds.get(self.axis, {}))
-        self.drive.show_speeds(speeds)
-        self.saved.show_speeds(speeds)
+        speeds = {each: speeds_of(each, self._setup, self._kept) for each in self._letters or self._setup.letters}
+        if self.one is not None:
+            self.one.show_speeds(speeds.get(self.axis, {}))
+        for page in (self.drive, self.saved):
+            if page is not None:
+                page.show_speeds(speeds)
 
-    def _speeds_of(self, letter: str, setup: Setup) -> dict[str, str]:
-        from codegen.fields import Dimension
-
-        made = usual(setup.bounds(Dimension.SPEED, letter)[1], setup.axis(letter).scale)
-        return {**made, **self._kept.get(f"{letter} {unit_of(setup.axis(letter))}", {})}
-
-    def _keep_speed(self, name: str, text: str) -> None:
+    def keep_speed(self, name: str, text: str) -> None:
+        """The speed of the first page under a name, for its axis."""
         if self._setup is not None:
-            self.speed_kept.emit(f"{self.axis} {unit_of(self._setup.axis(self.axis))}", name, text)
+            self.speed_kept.emit(key_of(self.axis, self._setup), name, text)
 
-    def _another_axis(self) -> None:
+    def another_axis(self) -> None:
+        """The first page moves another axis from now on."""
         self.holder.let_go()
         self._show_kept()
 
-    def _make_pages(self, setup: Setup) -> None:
-        from widgets.jog.pages import make_pages
-
-        self.one, self.line, self.arc, self.drive, self.saved = make_pages(setup)
-        one = self.one
-        one.hold_wanted.connect(self._hold)
-        one.let_go.connect(self.holder.let_go)
-        one.run_wanted.connect(self._run)
-        one.latch_wanted.connect(self.latch_wanted)
-        one.latch_wanted.connect(lambda _: self.holder.let_go())
-        one.zero_wanted.connect(self.zero_wanted)
-        one.axis_changed.connect(self._another_axis)
-        one.speed_kept.connect(self._keep_speed)
-        self.drive.leaned.connect(lambda across, upward: self.lean(ON_SCREEN, across, upward))
-        self.drive.let_go.connect(self.holder.let_go)
-        self.saved.save_wanted.connect(self.point_saved)
-        self.saved.go_wanted.connect(self.point_wanted)
-        self.saved.rename_wanted.connect(self.point_renamed)
-        self.saved.delete_wanted.connect(self.point_deleted)
-        for page in (one, self.line, self.arc):
-            page.plan_wanted.connect(self.plan_wanted)
-        for together in (self.line, self.arc):
-            together.stop_wanted.connect(lambda: self.released.emit(""))
-        for each in (one, self.line, self.arc, self.drive, self.saved):
-            self.pages.addWidget(each)
-        self.show_points(self._points)
-        self.show_pad(self._pad_words)
-
     def _open(self, index: int) -> None:
         self.holder.let_go()
-        self.pages.setCurrentIndex(index)
-        self.pages.updateGeometry()
+        self.open_page = index
         for number, button in enumerate(self.buttons):
             button.setChecked(number == index)
+        self._fit()
 
     def _lay_out(self) -> None:
-        self._fitted: tuple[Setup, str] | None = None
+        self._fitted: dict[QWidget, tuple[Setup, str]] = {}
         outer = QVBoxLayout(self)
         outer.setContentsMargins(8, 4, 8, 4)
         self.empty.setWordWrap(True)
@@ -402,15 +385,7 @@ class JogPanel(Panel):
         column = QVBoxLayout(inside)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
-        row = QHBoxLayout()
-        for index, button in enumerate(self.buttons):
-            button.setCheckable(True)
-            button.setChecked(index == 0)
-            button.setProperty("role", "segment")
-            button.clicked.connect(lambda _=False, index=index: self._open(index))
-            row.addWidget(button)
-        row.addStretch(1)
-        column.addLayout(row)
+        column.addLayout(row_of(self.buttons, self._open))
         self.result.setWordWrap(True)
         self.result.setProperty("role", "quiet")
         self.result.setMinimumHeight(2 * self.fontMetrics().height())  # what is below does not jump

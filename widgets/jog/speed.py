@@ -10,7 +10,10 @@ from functools import partial
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QPushButton, QSlider, QToolButton, QVBoxLayout, QWidget
 
+from codegen.fields import Dimension
 from codegen.numbers import number_problem, parse_number, plain
+from codegen.setup import Setup
+from widgets.display.readings import unit_of
 
 STEPS = 100  # of the slider; each is the same factor
 SPAN = 100_000.0  # between its slowest and its fastest speed
@@ -29,6 +32,17 @@ def usual(top: Fraction, scale: Fraction) -> dict[str, str]:
         return {}
     found = {name: min(counts / scale, top / part) for name, (counts, part) in USUAL.items()}
     return {name: plain(round_number(speed)) for name, speed in found.items()}
+
+
+def key_of(letter: str, setup: Setup) -> str:
+    """Speeds are kept for an axis in its unit: never read in another one."""
+    return f"{letter} {unit_of(setup.axis(letter))}"
+
+
+def speeds_of(letter: str, setup: Setup, kept: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
+    """Slow, medium and fast of an axis: those that were kept, else the usual ones."""
+    made = usual(setup.bounds(Dimension.SPEED, letter)[1], setup.axis(letter).scale)
+    return {**made, **kept.get(key_of(letter, setup), {})}
 
 
 class SpeedRow(QWidget):
