@@ -130,6 +130,12 @@ def _prompt(stage: Stage) -> QWidget:
     return stage.studio.window.prompt.line
 
 
+def _scope(stage: Stage) -> QWidget:
+    stage.studio.actions["scope"].trigger()
+    stage.go()
+    return stage.studio.at_machine.curves.body.choices.count
+
+
 def _floating(stage: Stage) -> QWidget:
     stage.studio.window.docks["Display"].setFloating(True)
     stage.go()
@@ -155,6 +161,7 @@ PLACES: dict[str, Callable[[Stage], QWidget]] = {
     "a half-typed command": _terminal,
     "the answer to a program": _prompt,
     "a floating panel": _floating,
+    "the scope": _scope,
 }
 
 
