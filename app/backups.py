@@ -20,7 +20,7 @@ from device.api import Controller, Job, Kind, State
 from device.backing_up import Restored, backup_steps, restore_steps
 from device.backup import SUFFIX, Backup, differences, load, misfits, save
 from device.backup_kept import Kept, glance, kept
-from device.backup_words import described, row_of, serial_words, summary
+from device.backup_words import described, names, row_of, serial_words, summary
 from device.tasks import Priority
 from widgets.parts import files
 
@@ -220,7 +220,7 @@ class Backups(QObject):
         wanted, controller = self._chosen, self._connection.controller
         if wanted is None:
             return
-        left = ", ".join(wanted.left_out)
+        left = names(wanted.left_out)
         words = (
             f"Taken {wanted.taken}: {summary(wanted)}.",
             self._serial_words(),

@@ -57,7 +57,7 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
     errors = tuple(finding for finding in found if finding.severity == "error")
     warnings = tuple(finding for finding in found if finding.severity != "error")
     if advice := cut(instruction):
-        warnings += (Finding("distance", advice, "warning"),)
+        warnings += (Finding("distance", advice, "warning", rule="rounded-down"),)
     defines, target = _labels(instruction)
     if errors:
         return Compiled((), (), 0, defines, target, (), (), errors, warnings, "", True)
@@ -68,9 +68,9 @@ def _compiled(instruction: Instruction, setup: Setup) -> Compiled:
     long = next((text for text in texts if len(text) > limit), None)
     if long is not None:
         message = f"This becomes a line of {len(long)} characters; the controller takes {limit}"
-        errors = (Finding("", message),)
+        errors = (Finding("", message, rule="line-too-long"),)
     elif refusal := next(filter(None, (refused(each, setup) for each in made if isinstance(each, Call))), None):
-        errors = (Finding("", refusal),)
+        errors = (Finding("", refusal, rule="not-on-model"),)
     if errors:
         return Compiled((), (), 0, defines, target, (), (), errors, warnings, "", True)
     unscaled = "".join(letter for letter in axes_of(instruction) if not setup.axis(letter).is_set_up)

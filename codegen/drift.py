@@ -33,9 +33,9 @@ from codegen.laps import FINEST, Course, Item, Mark, added, courses
 from codegen.numbers import plain, shown
 from codegen.paths import legs
 from codegen.program import Step, Steps
-from codegen.raw_course import raw_items
 from codegen.read import problems
 from codegen.setup import Setup
+from codegen.twoletter.course import raw_items
 
 MANY = Fraction(1000)  # turns of a loop without end that are looked at
 SIMPLE = 10**6  # denominator of what a sum of them stood for: no scale has more

@@ -164,7 +164,7 @@ class _Pass:
     def judge_loops(self) -> None:
         for loop in self.loops:
             if text := judged(loop.words, loop.turn, self.setup, loop.count, self.routines):
-                loop.part.more.append((loop.at, Finding("", text, "warning", "", loop.step)))
+                loop.part.more.append((loop.at, Finding("", text, "warning", "", loop.step, "drift")))
 
     def compare_labels(self) -> None:
         """Labels that are there twice."""
@@ -172,7 +172,9 @@ class _Pass:
         for part in self.parts:
             for at, label, step in part.made.defines:
                 if label in defined:
-                    part.more.append((at, Finding("name", f"The label {label} is used twice", "error", "", step)))
+                    part.more.append(
+                        (at, Finding("name", f"The label {label} is used twice", "error", "", step, "duplicate-label"))
+                    )
                 defined.add(label)
         self.defined = defined
 
@@ -183,7 +185,9 @@ class _Pass:
             for at, letter, step in part.made.unscaled:
                 if letter not in told:
                     told.add(letter)
-                    part.more.append((at, Finding("", never_set_up(self.setup, letter), "warning", letter, step)))
+                    part.more.append(
+                        (at, Finding("", never_set_up(self.setup, letter), "warning", letter, step, "axis-not-set-up"))
+                    )
 
     # ---- the lines
 
@@ -246,7 +250,7 @@ class _Pass:
         for part in self.parts:
             for label, step in part.made.targets:
                 if label not in self.defined and label not in SYSTEM_LABELS:
-                    found.append(Finding("target", f"There is no label {label}", "error", "", step))
+                    found.append(Finding("target", f"There is no label {label}", "error", "", step, "missing-label"))
         return found
 
 
@@ -266,6 +270,6 @@ def generate(document: Document) -> Listing:
     lines = tuple([line for stack in stacks for line in stack.lines])
     if len(lines) > limits.lines:
         text = f"The program has {len(lines)} lines; the controller takes {limits.lines}"
-        problems.append(Finding("", text))
+        problems.append(Finding("", text, rule="too-many-lines"))
     starts = accumulate((len(stack.lines) for stack in stacks), initial=0)
     return Listing(lines, tuple(problems), tuple(zip(starts, (stack.places for stack in stacks), strict=False)))

@@ -394,11 +394,11 @@ def _problems(instruction: Instruction, setup: Setup) -> tuple[Finding, ...]:
     if any(finding.severity == "error" for finding in found):
         return tuple(sorted(found, key=lambda finding: finding.severity))
     if own := instruction.own_problem() or _setup_problem(instruction, setup):
-        found.insert(0, Finding(*own))
+        found.insert(0, Finding(*own, rule="not-together"))
     elif reason := cannot(type(instruction), setup):
-        found.insert(0, Finding("", reason))
+        found.insert(0, Finding("", reason, rule="not-on-model"))
     elif advice := instruction.own_warning(setup):
-        found.append(Finding(*advice, "warning"))
+        found.append(Finding(*advice, "warning", rule="advice"))
     return tuple(found)
 
 
@@ -419,7 +419,7 @@ def _judge(
     elif field.warns and not _absent(field, context):
         counts = field.counts(value, context)
         if counts is not None and counts.warning:
-            found.append(Finding(name, counts.warning, "warning", axis))
+            found.append(Finding(name, counts.warning, "warning", axis, rule="rounded"))
 
 
 def has_errors(instruction: Instruction, setup: Setup) -> bool:

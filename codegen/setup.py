@@ -203,13 +203,22 @@ def _code_problem(text: str, model: str) -> str | None:
 
 @dc.dataclass(frozen=True, slots=True)
 class Finding:
-    """Something to put right: which field, one sentence, and how bad it is ("error" or "warning")."""
+    """Something to put right: which field, one sentence, and how bad it is ("error" or "warning").
+
+    `rule` names what was found where that is more than a wrong field, as the rules of the source checker do.
+    """
 
     field: str
     message: str
     severity: str = "error"
     axis: str = ""
     step: str = ""
+    rule: str = ""
+
+    @property
+    def code(self) -> str:
+        """What to look it up by."""
+        return self.rule or self.field or "step"
 
 
 @lru_cache(maxsize=64)

@@ -53,10 +53,10 @@ def slowed(document: Document, percent: int) -> Listing:
     for number, line in enumerate(lines):
         if len(line.text) > limits.columns:
             words = f"Line {number} gets too long for the controller when its speed is divided: use a variable for it"
-            found.append(Finding("", words, "error", "", line.step))
+            found.append(Finding("", words, "error", "", line.step, "line-too-long"))
     if len(lines) > limits.lines:
         words = f"A slowed program needs one line more, and the controller takes {limits.lines}"
-        found.append(Finding("", words))
+        found.append(Finding("", words, rule="too-many-lines"))
     return Listing(tuple(lines), (*listing.problems, *found))
 
 
@@ -117,11 +117,11 @@ def _problems(listing: Listing, setup: Setup, percent: int) -> Iterator[Finding]
     for number, statement in parse(listing.text).statements():
         words = _problem(statement, listing.lines[number].text, percent) if isinstance(statement, Command) else ""
         if words:
-            yield Finding("", words, "error", "", listing.step_of(number, _column(statement)))
+            yield Finding("", words, "error", "", listing.step_of(number, _column(statement)), "not-slowed")
     bare = _unset(listing, setup)
     if bare:
         words = f"The program never sets the speed of {' and '.join(bare)}: what the controller has can not be slowed"
-        yield Finding("", words)
+        yield Finding("", words, rule="not-slowed")
 
 
 def _column(statement: Statement) -> int:

@@ -127,17 +127,19 @@ def closed(run: Run) -> Stretch:
     work = _Work(run.setup, False)
     (routine,) = run.steps
     if not isinstance(routine.instruction, Subroutine):
-        work.find(Finding("", "This step stands outside a subroutine", "error", "", routine.id))
+        work.find(Finding("", "This step stands outside a subroutine", "error", "", routine.id, "outside-subroutine"))
         return work.finished()
     wanted = END_OF[routine.instruction.routine]
     if not is_closed(routine):
         work.add(compiled(End(of=wanted), run.setup).before, routine.id, 0)
-        work.find(Finding("", "This subroutine is not closed yet: add an End", "warning", "", routine.id))
+        work.find(
+            Finding("", "This subroutine is not closed yet: add an End", "warning", "", routine.id, "subroutine-open")
+        )
     for step in routine.body:
         end = step.instruction
         if step.enabled and isinstance(end, End) and end.of is not wanted:
             text = f"{routine.instruction.label} needs the end of {_words(wanted)}"
-            work.find(Finding("of", text, "error", "", step.id))
+            work.find(Finding("of", text, "error", "", step.id, "wrong-end"))
     return work.finished()
 
 
@@ -174,14 +176,14 @@ class _Work:
         first = self.made.numbers
         self.made.numbers += made.numbers
         if step.body and (text := drift(step, self.setup)):
-            self.find(Finding("", text, "warning", "", step.id))
+            self.find(Finding("", text, "warning", "", step.id, "drift"))
         self.add(made.before, step.id, made.numbers, first)
         if step.body:
             for inner in step.body:
                 self.step(inner)
             for mark, _, turn in loops([(item, 0) for item in along(step.body, self.setup)]):
                 if text := judged("This loop", turn, self.setup):
-                    self.find(Finding("", text, "warning", "", mark.step))
+                    self.find(Finding("", text, "warning", "", mark.step, "drift"))
         self.add(made.after, step.id, made.numbers, first)
 
     def add(self, texts: tuple[str, ...], step: str, numbers: int, first: int = 0) -> None:
@@ -206,7 +208,7 @@ class _Work:
         if not made.noteworthy:
             return
         for finding in (*made.errors, *made.warnings):
-            self.find(Finding(finding.field, finding.message, finding.severity, finding.axis, step.id))
+            self.find(dc.replace(finding, step=step.id))
         if made.errors:
             problem = made.errors[0].message
             self.lines.append(Line(f"' {problem}", step.id, problem))
@@ -220,10 +222,10 @@ class _Work:
             self.made.arrays += made.arrays
         if isinstance(step.instruction, TwoLetterCode) and _sets_loop_rate(step.instruction):
             text = "The loop rate set here does not rescale the other instructions; use Loop Rate"
-            self.find(Finding("text", text, "warning", "", step.id))
+            self.find(Finding("text", text, "warning", "", step.id, "loop-rate-in-code"))
         if not self.configuration and isinstance(step.instruction, LoopRate):
             text = "Loop Rate belongs to the configuration: speeds and waits of the whole program depend on it"
-            self.find(Finding("", text, "error", "", step.id))
+            self.find(Finding("", text, "error", "", step.id, "loop-rate-late"))
 
 
 def _sets_loop_rate(code: TwoLetterCode) -> bool:

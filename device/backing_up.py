@@ -23,6 +23,7 @@ from device.backup import (
     per_axis,
     untold,
 )
+from device.backup_words import names
 from device.download import Download, Downloaded, Job, proved, upload_steps
 from device.identify import fence
 from device.tasks import LinkError, LinkLost, NotAllowed, Send, Steps, data_line
@@ -294,7 +295,7 @@ def _put(c: Controller, line: str) -> Steps[list[str]]:
 
 
 def _sentence(backup: Backup, model: Model, refused: Sequence[str], left: Sequence[str]) -> str:
-    unknown = f" Not in the backup, because the controller does not tell it: {', '.join(untold(model))}."
+    unknown = f" Not in the backup, because the controller does not tell it: {names(untold(model))}."
     if refused or left:
         return f"Restored with {len(refused) + len(left)} exceptions; the motors are off, nothing is burned.{unknown}"
     on = f" In the backup the motors of {', '.join(backup.motors_on)} were on." if backup.motors_on else ""

@@ -23,6 +23,7 @@ from codegen.twoletter.rows import Takes
 
 FORMAT = "twoletter backup"
 VERSION = 1
+UNNAMED = "variables and arrays that its program does not name"
 SUFFIX = ".tlb"
 Value = int  # in 1/65536
 
@@ -58,8 +59,9 @@ def parameter_names(model: Model) -> list[str]:
 
 
 def untold(model: Model) -> tuple[str, ...]:
-    """Burned settings that this controller has but does not tell."""
-    return tuple(row.name for row in COMMANDS.values() if row.burned and not row.operand and row.known_to(model))
+    """Burned settings that this controller has but does not tell, and values that it cannot list."""
+    settings = tuple(row.name for row in COMMANDS.values() if row.burned and not row.operand and row.known_to(model))
+    return settings if COMMANDS["LV"].known_to(model) else (*settings, UNNAMED)
 
 
 def per_axis(name: str) -> bool:

@@ -80,16 +80,23 @@ def _array(name: str, values: Sequence[int]) -> str:
 def missing(backup: Backup) -> Iterator[str]:
     """What is not in it, and why."""
     if backup.not_read:
-        yield f"The controller does not tell it: {_names(backup.not_read)}."
+        yield f"The controller does not tell it: {names(backup.not_read)}."
     if backup.left_out:
         yield (
             f"Left out to keep the download quick, which leaves it as it is in the controller: "
-            f"{_names(backup.left_out)}."
+            f"{names(backup.left_out)}."
         )
 
 
-def _names(names: Sequence[str]) -> str:
-    return ", ".join(f"{COMMANDS[name].title} ({name})" if name in COMMANDS else name for name in names)
+def names(items: Sequence[str]) -> str:
+    """Settings by their titles, arrays and variables as such."""
+    return ", ".join(map(_name, items))
+
+
+def _name(item: str) -> str:
+    if item in COMMANDS:
+        return f"{COMMANDS[item].title} ({item})"
+    return f"array {item.removesuffix('[]')}" if item.endswith("[]") else item
 
 
 def summary(backup: Backup) -> str:

@@ -15,6 +15,7 @@ from device.api import Controller, Job
 from device.backing_up import Restored, backup_steps, restore_steps
 from device.backup import Backup, load, save
 from device.backup_kept import controller_name, keep
+from device.backup_words import names
 from device.tasks import Priority
 
 
@@ -54,7 +55,7 @@ def backup(options: argparse.Namespace) -> int:
         f"{len(found.variables)} variables, {len(found.arrays)} arrays"
     )
     if found.not_read:
-        print(f"not in it, because the controller does not tell it: {', '.join(found.not_read)}")
+        print(f"not in it, because the controller does not tell it: {names(found.not_read)}")
     return DONE
 
 

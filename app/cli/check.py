@@ -40,8 +40,7 @@ def findings(loaded: Loaded) -> list[Row]:
     if loaded.listing:
         for finding in loaded.listing.problems:
             place = first_line(loaded.listing, finding.step)
-            code = finding.field or "step"
-            rows.append(row(loaded.path, (place, 1, 1), finding.severity, code, finding.message))
+            rows.append(row(loaded.path, (place, 1, 1), finding.severity, finding.code, finding.message))
     for problem in check_source(loaded.text, loaded.model):
         place = (problem.line + 1, problem.column + 1, problem.end + 1)
         rows.append(row(loaded.path, place, problem.severity, problem.rule, problem.message))

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTextBrowser
 
 from codegen.docs import command_page
 from codegen.fields import fields_of
-from codegen.instructions import ALL
+from codegen.instructions import ALL, TwoLetterCode
 from tests.app.hands import Keys
 from tests.stage import Stage
+from widgets.form.text_area import CodeArea
 from widgets.help.topic import topic_of
 
 
@@ -51,6 +53,26 @@ def test_a_command_opens_its_entry_where_the_cursor_is(stage: Stage) -> None:
     QApplication.processEvents()
     title, line = page(stage)
     assert title == "Commands: Motion" and line.startswith("PR: ")
+
+
+def test_a_command_in_the_field_of_two_letter_code_opens_its_entry(stage: Stage) -> None:
+    program = stage.studio.program
+    program.dialogs.add(TwoLetterCode)
+    stage.go()
+    dialog = program.dialogs.open[-1]
+    field = dialog.findChild(CodeArea)
+    assert field is not None
+    field.setFocus()
+    QTest.keyClicks(field, "V1=5;PR 4000")
+    assert topic_of(field) == "Commands: Motion#PR:"
+    QTest.keyClick(field, Qt.Key.Key_Home)
+    assert topic_of(field) == "2-Letter Code#Code"  # an assignment is no command
+    QTest.keyClick(field, Qt.Key.Key_End)
+    QTest.keySequence(field, "F1")
+    QApplication.processEvents()
+    title, line = page(stage)
+    assert title == "Commands: Motion" and line.startswith("PR: ")
+    dialog.close()
 
 
 def test_a_typed_command_opens_its_entry(stage: Stage) -> None:

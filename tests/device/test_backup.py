@@ -13,6 +13,7 @@ from codegen.files import FileUnreadable
 from codegen.models import MODELS
 from device.backing_up import Restored, backup_steps, restore_steps
 from device.backup import (
+    UNNAMED,
     Backup,
     differences,
     dumps,
@@ -25,6 +26,7 @@ from device.backup import (
     number_text,
     save,
 )
+from device.backup_words import missing
 from device.download import Job
 from device.tasks import LinkError, NotAllowed, Priority
 from tests.rig import Rig
@@ -82,7 +84,8 @@ def test_a_backup_holds_what_was_set() -> None:
     assert backup.program == PROGRAM
     assert backup.variables["LEN"] == -(3 * 65536 + 16384)
     assert backup.arrays["P"] == (65536, -(5 * 32768), (1 << 47) - 1)
-    assert set(backup.not_read) == {"CC", "CN", "CW", "EO"}
+    assert set(backup.not_read) == {"CC", "CN", "CW", "EO", UNNAMED}
+    assert "variables and arrays that its program does not name" in "".join(missing(backup))
 
 
 def test_the_file_reads_back_as_it_was(tmp_path: Path) -> None:

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QLineEdit,
-    QPlainTextEdit,
     QPushButton,
     QSizePolicy,
     QWidget,
@@ -23,6 +22,7 @@ from widgets.form.buttons import Buttons, row_of
 from widgets.form.grid_editor import GridEditor
 from widgets.form.judge import Judge
 from widgets.form.offers import Offers
+from widgets.form.text_area import CodeArea, TextArea
 from widgets.parts.icons import icon
 from widgets.parts.look import look
 
@@ -131,42 +131,6 @@ class ExpressionEditor(QWidget):
 
     def setValue(self, value: Any) -> None:
         self.line.setValue(value)
-
-
-class TextArea(QPlainTextEdit):
-    """Several lines of text or code."""
-
-    changed = Signal(object)
-
-    def __init__(self, field: fields.Field, offers: Offers, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setTabChangesFocus(True)
-        self.setMinimumHeight(look().control * 3)
-        self.setMaximumHeight(look().control * 5)
-        self.setMinimumWidth(240)
-        if isinstance(field, fields.Code):
-            self.setFont(look().code_font())
-            self.setFixedHeight(look().control * 7)
-        self.textChanged.connect(lambda: self.changed.emit(self.toPlainText()))
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Ctrl+Enter belongs to the dialog."""
-        if (
-            event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
-            and event.modifiers() & Qt.KeyboardModifier.ControlModifier
-        ):
-            event.ignore()
-            return
-        super().keyPressEvent(event)
-
-    def value(self) -> str:
-        return self.toPlainText()
-
-    def setValue(self, value: Any) -> None:
-        if value != self.toPlainText():
-            self.blockSignals(True)
-            self.setPlainText(value)
-            self.blockSignals(False)
 
 
 class ChoiceButtons(Buttons):
@@ -376,7 +340,7 @@ EDITORS: dict[type[fields.Field], Any] = {
     fields.Condition: ExpressionEditor,
     fields.Text: lambda field, offers: (TextArea if field.lines else LineEditor)(field, offers),
     fields.MessageText: LineEditor,
-    fields.Code: TextArea,
+    fields.Code: CodeArea,
     fields.Table: GridEditor,
     fields.LabelName: label_name,
     fields.VariableName: lambda field, offers: NameEditor(lambda now: now.variables, offers),

@@ -14,7 +14,7 @@ from codegen.generate import Listing
 from widgets.parts.icons import icon
 
 STEP = Qt.ItemDataRole.UserRole
-Entry = tuple[str, str, str, str]  # severity, message, id of the step, its sentence
+Entry = tuple[str, str, str, str, str]  # severity, message, id of the step, its sentence, code
 
 
 class ProblemsPanel(QWidget):
@@ -88,13 +88,14 @@ def _entries(document: Document, listing: Listing) -> Iterator[Entry]:
     for problem in sorted(listing.problems, key=lambda problem: problem.severity != "error"):
         step = steps.get(problem.step)
         where = "" if step is None else read.sentence(step.instruction, setup)
-        yield problem.severity, problem.message, problem.step if step is not None else "", where
+        yield problem.severity, problem.message, problem.step if step is not None else "", where, problem.code
 
 
 def _write(item: QListWidgetItem, entry: Entry) -> None:
-    severity, message, step_id, where = entry
+    severity, message, step_id, where, code = entry
     item.setIcon(icon("problem" if severity == "error" else "warning"))
     item.setText(f"{message}    {where}".rstrip())
+    item.setToolTip(f"{severity} {code}")
     item.setData(STEP, step_id)
     item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{severity}: {message}. {where}")
     item.setToolTip("Enter or a click goes to the step" if step_id else "")

@@ -32,6 +32,8 @@ from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import Problem
 from codegen.twoletter.rows import BY_AXIS, Row, Takes
 
+UNKNOWN = 1  # the error code of what is no command at all
+
 
 @lru_cache(maxsize=16384)
 def line_problems(text: str, model: Model) -> tuple[Problem, ...]:
@@ -41,7 +43,7 @@ def line_problems(text: str, model: Model) -> tuple[Problem, ...]:
         return ()
     problems = [*line_length(text, model), *plain_characters(text)]
     for statement in line.statements:
-        problems += refused(text, statement)
+        problems += refused(text, statement, model)
         problems += known_values(statement, model)
         problems += assigned_command(statement, model)
         if isinstance(statement, Command):
@@ -68,9 +70,14 @@ def plain_characters(text: str) -> Iterator[Problem]:
             return
 
 
-def refused(text: str, statement: Statement) -> Iterator[Problem]:
-    """What the parser did not understand, at the exact place."""
+def refused(text: str, statement: Statement, model: Model) -> Iterator[Problem]:
+    """What the parser did not understand, at the exact place; of a command that is not there, that it is not."""
     if not isinstance(statement, Broken | Foreign) or statement.rule == "line-too-long":
+        return
+    row = COMMANDS.get(text[statement.span.start : statement.span.start + 2])
+    if row is not None and statement.code != UNKNOWN and not row.known_to(model):
+        start = statement.span.start
+        yield RULES["not-on-model"].problem(0, start, start + 2, text=row.name, model=model.title)
         return
     place = statement.place
     spot = text[place.start : place.end].strip()

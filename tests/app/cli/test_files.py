@@ -9,9 +9,13 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
+from codegen import files
+from codegen.document import Document
 from codegen.files import load
 from codegen.generate import generate
 from codegen.instructions import AutoExecution, Jump, Label, Output, SingleAxisMove, Subroutine, TwoLetterCode
+from codegen.program import Program, Step
+from codegen.setup import Axis, Setup, Unit
 from codegen.twoletter.format import format_statement
 from codegen.twoletter.parse import parse
 from resources import path as resource
@@ -136,6 +140,17 @@ def test_check_as_json(write: Write, capsys: Said) -> None:
     found = next(row for row in rows if row["severity"] == "error")
     assert (found["file"], found["line"], found["column"], found["end"]) == (path, 2, 4, 12)
     assert found["code"] and found["message"]
+
+
+def test_advice_about_steps_has_codes_like_the_findings_of_the_source(write: Write, capsys: Said) -> None:
+    setup = Setup(model="ssc4").with_axis("X", Axis(unit=Unit.MM, counts_per_unit="100"))
+    loop = (Label(name="A"), SingleAxisMove(distance="1.003"), SingleAxisMove(distance="-LEN"), Jump(target="A"))
+    main_ = tuple(Step(f"s{place}", each) for place, each in enumerate(loop))
+    path = write("drifts.tlp", files.dumps(Document(Program("P", main=main_), setup)))
+    assert main(["check", path, "--json"]) == 0
+    found = {row["code"]: row["message"] for row in json.loads(capsys.readouterr().out)}
+    assert found["drift"] == "This loop drifts: X by -3 mm in 1000 turns"
+    assert "rounds it down" in found["rounded-down"]
 
 
 def test_check_is_content_with_good_files(write: Write, capsys: Said) -> None:

@@ -139,6 +139,8 @@ def test_comparisons(condition: str, warned: bool) -> None:
         ("REM one\n'two\n#A\nEN", "ssc1", []),
         ("#A\nBA X;BM 1333.333;BI 5;BZ -2;BZX=-1\nEN", "dmc1412", []),
         ("#A\nBZ -2\nEN", "dmc1414", ["not-on-model"]),
+        ("#A\nLM 1\nEN", "dmc1412", ["not-on-model"]),  # it has no LM, whatever follows
+        ("#A\nLM 1\nEN", "ssc4", ["bad-argument"]),
         ("#A\nPR 1;BG X;PR ,5;BG Y\nEN", "ssc2", []),
         ("#A\nPR 1;BG;PR ,5\nEN", "ssc2", ["still-moving"]),
         ("#A\nPR 1;BG X;ST X;PR 2\nEN", "ssc2", ["still-moving"]),
