@@ -68,10 +68,14 @@ class Window(QMainWindow):
 
     def add(self, title: str, content: QWidget, area: Qt.DockWidgetArea, moves: bool = False) -> Dock:
         """A new dock; `arrange` makes those of one area tabs of each other."""
-        dock = Dock(title, content, moves)
-        dock.stop.connect(self.stop)
+        dock = self._made(title, content, area, moves)
         self.addDockWidget(area, dock)
         dock.hide()
+        return dock
+
+    def _made(self, title: str, content: QWidget, area: Qt.DockWidgetArea, moves: bool) -> Dock:
+        dock = Dock(title, content, moves)
+        dock.stop.connect(self.stop)
         self._areas.setdefault(area, []).append(dock)
         self.docks[title] = dock
         panels, floats = self.submenus["panels"], self.submenus["floats"]
@@ -84,14 +88,15 @@ class Window(QMainWindow):
     def add_late(self, title: str, content: Panel, area: Qt.DockWidgetArea, shown: bool) -> None:
         """The same after the others have been arranged: behind them, unless it is remembered to be elsewhere."""
         before = [dock for dock in self._areas.get(area, []) if not dock.isFloating()]
-        dock = self.add(title, content, area, moves=content.moves)
-        if self.restoreDockWidget(dock):
+        dock = self._made(title, content, area, content.moves)
+        if self.restoreDockWidget(dock):  # before it is in any area, else there is always something to restore
             return
+        self.addDockWidget(area, dock)
         if before:
             front = next((each for each in before if not each.visibleRegion().isEmpty()), before[0])
             self.tabifyDockWidget(before[-1], dock)
-            dock.setVisible(shown)
             front.raise_()
+        dock.setVisible(shown)
 
     def show_title(self, name: str, kind: Kind) -> None:
         """The program's name and the kind, in the title bar of the system."""
