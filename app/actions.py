@@ -118,6 +118,8 @@ ROWS: tuple[Row, ...] = (
         "A new axis, step by step: enable, encoder, switches, limits, polarity, scale, report", "", "machine"),
     Row("scope", "Scope", "Machine", "Curves of positions, errors, torque, inputs: captured or live", "Alt+9", "scope",
         "main", "Scope"),
+    Row("teach", "Teach", "Machine", "Drive two axes by a stick, record places, play them back", "Ctrl+J", "teach", "main",
+        "Teach"),
     Row("plane", "X-Y view", "Machine", "The way of two axes from above", "Alt+4", "measure"),
     Row("operator", "Operator terminal", "Machine", "The terminal at port 2 of the controller", "Alt+5", "operator"),
     Row("variables", "Variables", "Machine", "Variables and arrays of the controller", "Alt+7", "program"),
@@ -165,7 +167,7 @@ MENUS = ("File", "Edit", "View", "Machine", "Controller", "Help")
 # what stands together in the toolbar, in the order of the manual's main panel
 MAIN = (
     ("open", "save"),
-    ("setup", "program", "terminal", "display", "jog", "scope"),
+    ("setup", "program", "terminal", "teach", "display", "jog", "scope"),
     ("help", "exit"),
 )
 RUN = (("download", "execute", "halt"), ("burn", "upload"))

@@ -15,6 +15,7 @@ from app.points import Points
 from app.recorder import Recorded
 from app.scope import Scope
 from app.search import Candidate
+from app.teach import Teach
 from app.variables import Variables
 from app.window import BOTTOM, RIGHT
 from widgets.events.panel import EventsPanel
@@ -24,6 +25,7 @@ from widgets.panel import Panel
 from widgets.plane.panel import PlanePanel
 from widgets.recorder.panel import RecorderPanel
 from widgets.scope.panel import ScopePanel
+from widgets.teach.panel import TeachPanel
 from widgets.values.panel import ValuesPanel
 
 if TYPE_CHECKING:
@@ -61,15 +63,22 @@ class AtMachine:
             connection, studio.session, tick, self.curves, data / "captures", clock, studio.window, studio
         )
         self.scope.said.connect(studio.desk.say)
+        self.table = TeachPanel(clock=studio.now)
+        self.teach = Teach(
+            connection, studio.session, tick, self.table, self.plane, ask, studio.ear.homed_axes, studio.files.folder,
+            studio.now, studio,
+        )  # fmt: skip
+        self.pads.add(self.table)
         self.event_list.line_wanted.connect(studio.ear.reveal)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (
             self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
-            self.tape, self.recorded.ear, self.curves,
+            self.tape, self.recorded.ear, self.curves, self.table,
         )  # fmt: skip
         self.docks = (
             ("Jog", self.jog, RIGHT),
             ("X-Y view", self.plane, RIGHT),
+            ("Teach", self.table, RIGHT),
             ("Operator terminal", self.keys, RIGHT),
             ("Scope", self.curves, BOTTOM),
             ("Variables", self.values, BOTTOM),

@@ -160,6 +160,7 @@ class Studio(QObject):
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(self._bring, "X-Y view"), "operator": partial(self._bring, "Operator terminal"),
+            "teach": partial(self._bring, "Teach"),
             "scope": self._bring_scope,
             "events": partial(self._bring, "Events"), "recorder": partial(self._bring, "Recorder"),
             "open_recording": self._open_recording,

@@ -90,3 +90,9 @@ class Io:
         if not self._c.io_control:
             return refused("Not sent: switch I/O control on to set outputs by hand.")
         return self._c.ask(f"{'SB' if on else 'CB'} {number}")
+
+    def set_outputs(self, byte: int) -> Future[Reply]:
+        """Switches all outputs at once, output 1 is the lowest bit; needs Control and I/O control."""
+        if not self._c.io_control:
+            return refused("Not sent: switch I/O control on to set outputs by hand.")
+        return self._c.ask(f"OP {byte}")

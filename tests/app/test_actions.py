@@ -96,7 +96,7 @@ def test_the_toolbar_has_the_buttons_of_the_manual(stage: Stage) -> None:
         "exit", "save", "open", "setup", "terminal", "program", "teach", "display", "scope", "tune", "jog", "help",
     }  # fmt: skip
     names = {name for group in MAIN for name in group}
-    assert names == table - {"teach", "tune"}
+    assert names == table - {"tune"}
 
 
 def test_no_row_is_grey_for_ever(stage: Stage) -> None:

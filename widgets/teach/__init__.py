@@ -1,0 +1,1 @@
+"""Teaching by hand: the table, its stick, its picture."""

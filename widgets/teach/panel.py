@@ -1,0 +1,275 @@
+"""The teach panel: drive two axes by a stick, record where they are, edit the table, play it back."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QHideEvent
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from codegen.teach import Table
+from codegen.teach_drive import Driving, dead_band, share_of
+from device.api import Kind, NoticeKind, State
+from device.jog import deflection
+from widgets.display.display import Column
+from widgets.display.readings import unit_of
+from widgets.panel import Panel, set_text, show_role
+from widgets.parts.units import shown
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from codegen.setup import Setup
+    from codegen.teach import Wrong
+    from device.api import Controller, Notice, Row
+    from widgets.teach.parts import Parts
+
+OFFLINE = "Nothing is connected. Connect a controller or start the simulator to teach places; the table works without."
+WATCHED = "This is Watch: switch to Control to drive and to play back."
+NOT_READY = "The controller does not answer at the moment."
+ONE_AXIS = "Teaching needs two axes; this controller has one."
+JOYSTICK, SCREEN, PAD = "joystick", "stick", "pad"
+SOURCES = {JOYSTICK: "Joystick at the controller", SCREEN: "Stick on the screen", PAD: "Gamepad"}
+PLACES = ("commanded.x", "commanded.y")
+ENDS = {
+    NoticeKind.STOP: "STOP was pressed",
+    NoticeKind.LOST: "the connection was lost",
+    NoticeKind.RESTARTED: "the controller was restarted",
+}
+VOLTS = ("analog1", "analog2")
+
+
+class TeachPanel(Panel):
+    """Asks by signals; whoever joins it owns the table and hands it back."""
+
+    title = "Teach"
+    moves = True
+    enable_wanted = Signal(bool)
+    driving_changed = Signal(object)
+    record_wanted = Signal()
+    way_wanted = Signal(bool)
+    wait_added = Signal(str)
+    output_added = Signal(str)
+    done_wanted = Signal()
+    cell_typed = Signal(int, str, str)
+    rows_wanted = Signal(str, object, object)  # insert, delete, clear, pace, undo, redo; rows; cells
+    play_wanted = Signal(bool)  # step by step
+    next_wanted = Signal()
+    halt_wanted = Signal()
+    file_wanted = Signal(str)  # new, open, save, module
+    io_control_wanted = Signal(bool)
+
+    def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
+        super().__init__(parent)
+        self._clock = clock
+        self.setup: Setup | None = None
+        self.driving = Driving()
+        self.table = Table()
+        self.wrong: tuple[Wrong, ...] = ()
+        self.enabled = False
+        self._pad, self._pad_words = (0.0, 0.0), ""
+        self.volts = (math.nan, math.nan)
+        self.parts: Parts | None = None
+        self.empty, self.result = QLabel(OFFLINE), QLabel()
+        self._lay_out()
+
+    # ---- what it shows
+
+    def attach(self, controller: Controller) -> None:
+        self.ended("")
+        super().attach(controller)
+        self._show_usable()
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        if old is None or old.setup is not new.setup:
+            self.ended("")
+            self.setup = new.working_setup
+            self._show()
+
+    def watches(self) -> tuple[str, ...]:
+        if self.parts is None:
+            return ()
+        return (*PLACES, *(VOLTS if self.source == JOYSTICK else ()), *(("inputs",) if self.enabled else ()))
+
+    @property
+    def source(self) -> str:
+        """What it is driven with."""
+        return str(self.parts.source.currentData()) if self.parts is not None else SCREEN
+
+    @property
+    def reason(self) -> str:
+        """Why nothing may be driven or played back now, or nothing."""
+        controller = self.controller
+        if controller is None or controller.kind is Kind.OFFLINE:
+            return OFFLINE
+        if controller.state is not State.READY:
+            return NOT_READY
+        if len(controller.axes) == 1 or (self.setup is not None and len(self.setup.letters) == 1):
+            return ONE_AXIS
+        return "" if controller.control else WATCHED
+
+    @property
+    def problem(self) -> str:
+        """What is wrong with the numbers in the fields, or nothing."""
+        return (self.parts.of_stick.problem or self.parts.of_rows.problem) if self.parts is not None else ""
+
+    @property
+    def pushed(self) -> tuple[float, float]:
+        """How far the stick that is used is pushed, behind its dead band; NaN where that is not known."""
+        if self.source == SCREEN:
+            return self.parts.stick.value if self.parts is not None else (0.0, 0.0)
+        if self.source == PAD:
+            return self._pad
+        if not all(map(math.isfinite, self.volts)):
+            return math.nan, math.nan
+        across, upward = (share_of(volts, self.driving) for volts in self.volts)
+        return deflection(across, upward, dead_band(self.driving))
+
+    def refresh(self, row: Row) -> None:
+        if self.parts is None:
+            self._make_parts()
+        now = self._clock()
+        self.volts = tuple(math.nan if row.stale(key, now) else row.value(key) for key in VOLTS)  # type: ignore[assignment]
+        if self.enabled and self.reason:
+            self.ended(self.reason)
+        self._show_usable()
+        if self.parts is None or self.setup is None:
+            return
+        places = []
+        for letter, key in zip("XY", PLACES, strict=True):
+            axis = self.setup.axis(letter)
+            counts = math.nan if row.stale(key, now) else row.value(key)
+            places.append(f"{letter} {shown(counts, axis)} {unit_of(axis)}")
+        set_text(self.parts.place, "    ".join((*places, self._stick_words())))
+
+    def _stick_words(self) -> str:
+        if self.source == PAD:
+            return self._pad_words
+        across, upward = self.pushed
+        if self.source == SCREEN or not math.isfinite(across):
+            return ""
+        return f"joystick {across * 100:.0f} %, {upward * 100:.0f} %"
+
+    def notice(self, notice: Notice) -> None:
+        """STOP, a lost line, another controller behind it."""
+        if why := ENDS.get(notice.kind):
+            self.ended(f"Driving ended: {why}.")
+
+    def show_table(self, table: Table, wrong: tuple[Wrong, ...]) -> None:
+        """The rows as they are now, and what is wrong with them."""
+        self.table, self.wrong = table, wrong
+        self._show()
+
+    def show_driving(self, driving: Driving) -> None:
+        """Speeds, dead band, tolerance."""
+        self.driving = driving
+        self._show()
+
+    def show_enabled(self, on: bool) -> None:
+        """Whether the stick drives."""
+        self.enabled = on
+        if self.parts is not None:
+            self.parts.show_enabled(on)
+
+    def show_way(self, on: bool) -> None:
+        """Whether the whole way is recorded."""
+        if self.parts is not None:
+            self.parts.way.setChecked(on)
+
+    def show_play(self, playing: bool, row: int, words: str, holds: bool) -> None:
+        """A play-back on its way: its row (below 0: none), what it does, whether it waits for a step."""
+        if self.parts is not None:
+            self.parts.show_play(playing, row, holds)
+        if playing and words:
+            self.show_result(words)
+
+    def show_result(self, sentence: str, good: bool = True) -> None:
+        """How the last thing ended."""
+        set_text(self.result, sentence)
+        show_role(self.result, "quiet" if good else "problem")
+        self.result.setVisible(bool(sentence))
+
+    def words(self) -> str:
+        """What it says, as text."""
+        return self.empty.text() if self.empty.isVisibleTo(self) else self.result.text()
+
+    # ---- a gamepad (app/pads.py)
+
+    @property
+    def pad_wanted(self) -> bool:
+        """Whether the pad drives here."""
+        return self.enabled and self.source == PAD and self.in_sight
+
+    def pad_moved(self, across: float, upward: float) -> None:
+        self._pad = across, upward
+
+    def pad_pressed(self, button: int) -> None:
+        """The first button records."""
+        if button == 0 and self.enabled:
+            self.record_wanted.emit()
+
+    def show_pad(self, words: str) -> None:
+        self._pad_words = words
+
+    # ---- ends
+
+    def ended(self, why: str) -> None:
+        """The stick drives no more."""
+        if self.enabled:
+            self.enable_wanted.emit(False)
+            self.show_result(why)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        super().hideEvent(event)
+        self.ended("Driving ended: the panel was hidden.")
+
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.ActivationChange and not self._in_front():
+            self.ended("Driving ended: another window came to the front.")
+
+    def _in_front(self) -> bool:
+        """This window, or one of the small ones of this panel."""
+        return self.isActiveWindow() or any(each.isActiveWindow() for each in self.findChildren(QWidget, "entry"))
+
+    # ---- inside
+
+    def _make_parts(self) -> None:
+        """When it is first in sight: the picture takes a while to load."""
+        from widgets.teach.parts import Parts
+
+        self.parts = Parts(self)
+        self._column.insertWidget(2, self.parts, 1)
+        self._show()
+        self._show_usable()
+
+    def _show(self) -> None:
+        if self.parts is not None and self.setup is not None:
+            self.parts.show_all(self.table, self.setup, self.wrong, self.driving)
+
+    def _show_usable(self) -> None:
+        reason = self.reason
+        set_text(self.empty, reason)
+        self.empty.setVisible(bool(reason))
+        if self.parts is not None:
+            controller = self.controller
+            self.parts.show_usable(reason, controller is not None and controller.io_control)
+
+    def _lay_out(self) -> None:
+        inside = QWidget()
+        self._area = Column(inside)
+        self._area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._area)
+        self._column = QVBoxLayout(inside)
+        self._column.setContentsMargins(8, 4, 8, 4)
+        self._column.setSpacing(6)
+        for label in (self.empty, self.result):
+            label.setWordWrap(True)
+            label.setProperty("role", "quiet")
+            self._column.addWidget(label)
+        self.result.hide()
