@@ -101,6 +101,7 @@ ROWS: tuple[Row, ...] = (
     _program("-3", "View"),
     Row("layout_program", "Layout: Program", "View", "Instructions and program in front", "", "layout"),
     Row("layout_run", "Layout: Run", "View", "Display and messages in front", "", "display"),
+    Row("layout_tune", "Layout: Tune", "View", "Tuner and display in front", "", "tune"),
     Row("panels", "Panels", "View", "Shows and hides panels"),
     Row("floats", "Panel in a window of its own", "View", "Takes a panel out of the window, or puts it back"),
     Row("theme_system", "Colours as the system", "View", "Light or dark as the system has it", "", "lamp",
@@ -116,6 +117,8 @@ ROWS: tuple[Row, ...] = (
     Row("jog", "Jog", "Machine", "Move axes by hand", "Alt+6", "jog", "main", "Jog"),
     Row("commissioning", "Bring an axis to life…", "Machine",
         "A new axis, step by step: enable, encoder, switches, limits, polarity, scale, report", "", "machine"),
+    Row("tune", "Tune", "Machine", "Gains of an axis: by hand, automatic, model-based; logbook", "Alt+0", "tune", "main",
+        "Tune"),
     Row("scope", "Scope", "Machine", "Curves of positions, errors, torque, inputs: captured or live", "Alt+9", "scope",
         "main", "Scope"),
     Row("teach", "Teach", "Machine", "Drive two axes by a stick, record places, play them back", "Ctrl+J", "teach", "main",
@@ -167,7 +170,7 @@ MENUS = ("File", "Edit", "View", "Machine", "Controller", "Help")
 # what stands together in the toolbar, in the order of the manual's main panel
 MAIN = (
     ("open", "save"),
-    ("setup", "program", "terminal", "teach", "display", "jog", "scope"),
+    ("setup", "program", "terminal", "teach", "display", "jog", "scope", "tune"),
     ("help", "exit"),
 )
 RUN = (("download", "execute", "halt"), ("burn", "upload"))

@@ -16,6 +16,7 @@ from app.recorder import Recorded
 from app.scope import Scope
 from app.search import Candidate
 from app.teach import Teach
+from app.tuner_part import TunerPart
 from app.variables import Variables
 from app.window import BOTTOM, RIGHT
 from widgets.events.panel import EventsPanel
@@ -58,6 +59,7 @@ class AtMachine:
         self.recorded = Recorded(studio, studio.recorder, self.tape, studio.files.folder)
         self.recorded.said.connect(studio.desk.say)
         self.happened.recording = self.recorded.kept
+        self.tuning = TunerPart(studio, data)
         self.curves = ScopePanel()
         self.scope = Scope(
             connection, studio.session, tick, self.curves, data / "captures", clock, studio.window, studio
@@ -73,13 +75,14 @@ class AtMachine:
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (
             self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
-            self.tape, self.recorded.ear, self.curves, self.table,
+            self.tape, self.recorded.ear, self.curves, self.table, self.tuning.panel,
         )  # fmt: skip
         self.docks = (
             ("Jog", self.jog, RIGHT),
             ("X-Y view", self.plane, RIGHT),
             ("Teach", self.table, RIGHT),
             ("Operator terminal", self.keys, RIGHT),
+            ("Tuner", self.tuning.panel, RIGHT),
             ("Scope", self.curves, BOTTOM),
             ("Variables", self.values, BOTTOM),
             ("Events", self.event_list, BOTTOM),

@@ -156,9 +156,10 @@ class Studio(QObject):
             "import_module": lambda: self.importing.ask_file(self.files.folder()),
             "export_code": self.files.export_code, "options": self.options.show, "exit": self._exit,
             "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
+            "layout_tune": partial(self._arrange, "Tune"),
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
-            "setup": self.setup.show, "program": self.program.setFocus, "terminal": partial(desk.bring, "Terminal"),
+            "setup": self.setup.show, "program": self._program, "terminal": partial(desk.bring, "Terminal"),
             "plane": partial(self._bring, "X-Y view"), "operator": partial(self._bring, "Operator terminal"),
             "teach": partial(self._bring, "Teach"),
             "scope": self._bring_scope,
@@ -166,7 +167,7 @@ class Studio(QObject):
             "open_recording": self._open_recording,
             "editor": self.editor.show,
             "commissioning": lambda: self.commissioning.show(),
-            "jog": partial(self._bring, "Jog"), "variables": partial(self._bring, "Variables"),
+            "jog": partial(self._bring, "Jog"), "tune": self._tune, "variables": partial(self._bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial, "doctor": self.doctor.show,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
@@ -371,6 +372,25 @@ class Studio(QObject):
     def _open_recording(self) -> None:
         self._bring("Recorder")
         self.at_machine.recorded.ask_open()
+
+    def _tune(self) -> None:
+        """The tuner needs room: in its layout, unless it has a window of its own."""
+        self._make_panels()
+        dock = self.window.docks["Tuner"]
+        if not dock.isFloating() and self.window.centralWidget().isVisible():
+            self.desk.arrange("Tune")
+        dock.bring()
+
+    def _program(self) -> None:
+        """The program, also where a layout has put it away."""
+        if not self.window.centralWidget().isVisible():
+            self.desk.arrange("Program")
+        self.program.setFocus()
+
+    def _arrange(self, layout: str) -> None:
+        """A layout with panels that may have to be made first."""
+        self._make_panels()
+        self.desk.arrange(layout)
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

@@ -39,6 +39,7 @@ class Layout:
 
     panels: tuple[str, ...]
     front: tuple[str, ...]
+    program: bool = True  # whether the program stands in the middle; else the panels have all the room
 
 
 LAYOUTS: Mapping[str, Layout] = {
@@ -49,6 +50,11 @@ LAYOUTS: Mapping[str, Layout] = {
     "Run": Layout(
         ("Instructions", "Display", "X-Y view", "Simulator", "Messages", "Terminal", "Problems"),
         ("Instructions", "Display", "Messages"),
+    ),
+    "Tune": Layout(
+        ("Display", "Tuner", "Simulator"),
+        ("Tuner",),
+        program=False,
     ),
 }
 
@@ -94,13 +100,13 @@ class Desk(QObject):
     def arrange(self, layout: str) -> None:
         """A ready layout."""
         self._settings.set("layout", layout)
-        self._window.arrange(LAYOUTS[layout].panels, LAYOUTS[layout].front)
+        self._window.arrange(LAYOUTS[layout].panels, LAYOUTS[layout].front, LAYOUTS[layout].program)
 
     def restore(self) -> None:
         """The arrangement of last time, or the layout chosen last."""
         if not self._window.restore(self._settings.get("window")):
             layout = LAYOUTS.get(self._settings.get("layout"), LAYOUTS["Program"])
-            self._window.arrange(layout.panels, layout.front)
+            self._window.arrange(layout.panels, layout.front, layout.program)
 
     def add(self, title: str, panel: Panel, area: Qt.DockWidgetArea) -> None:
         """A panel that is made after the window: where it was last time, else as the layout has it."""

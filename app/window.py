@@ -113,7 +113,7 @@ class Window(QMainWindow):
         for dock in self.docks.values():
             dock.show_state(kind, state)
 
-    def arrange(self, panels: tuple[str, ...], front: tuple[str, ...]) -> None:
+    def arrange(self, panels: tuple[str, ...], front: tuple[str, ...], program: bool = True) -> None:
         """A ready layout: every dock back in its place, those of the layout open, those named in front."""
         for dock in self.docks.values():
             if dock.isFloating():
@@ -124,7 +124,9 @@ class Window(QMainWindow):
         for title, dock in self.docks.items():
             dock.setVisible(title in panels)
         for title in front:
-            self.docks[title].raise_()
+            if title in self.docks:  # some are made later
+                self.docks[title].raise_()
+        self.centralWidget().setVisible(program)
         self._size_docks()
 
     def show_titles(self) -> None:

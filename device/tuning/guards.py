@@ -38,7 +38,8 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 T = TypeVar("T")
-GAINS = ("KD", "KP", "KI", "FV", "FA", "IL", "OF")  # damping first, the integrator late
+FILTER = ("KD", "KP", "KI", "FV", "FA")  # as they are put back: damping first
+GAINS = (*FILTER, "IL", "OF")
 LIMITS = ("TL", "ER", "FL", "BL", "OE")
 PROFILE = ("SP", "AC", "DC", "IT")
 HELD = GAINS + LIMITS + PROFILE

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from device.commands import Reply
 
 T = TypeVar("T")
+LIMITED_BY = ("RP", "FL", "BL", "ER")
 STEP_VALUES = 200  # of a channel: what a person looks at
 
 
@@ -115,7 +116,7 @@ def present_steps(c: Controller, axis: str) -> Steps[Present]:
     model = c.model
     if model is None or axis not in model.axes or c.resting():
         raise NotAllowed(c.resting() or f"The gains can not be read: this controller has no axis {axis}.")
-    names = [*ALL, "RP", "FL", "BL", "ER", "MO", "DV"]
+    names = [*ALL, *LIMITED_BY, "MO", "DV"]
     found = yield from exact(c.nonces, [*(f"_{name}{axis}" for name in names), "_TM"], model.columns)
     values = {name: value or 0 for name, value in zip([*names, "TM"], found, strict=True)}
     return Present(

@@ -91,12 +91,12 @@ def test_stop_is_never_grey(stage: Stage) -> None:
 
 
 def test_the_toolbar_has_the_buttons_of_the_manual(stage: Stage) -> None:
-    # ssc-tol-o-motion.txt, chapter 5, "Controller Online": the table names twelve; those whose panels exist
+    # ssc-tol-o-motion.txt, chapter 5, "Controller Online": the table names twelve
     table = {
         "exit", "save", "open", "setup", "terminal", "program", "teach", "display", "scope", "tune", "jog", "help",
     }  # fmt: skip
     names = {name for group in MAIN for name in group}
-    assert names == table - {"tune"}
+    assert names == table
 
 
 def test_no_row_is_grey_for_ever(stage: Stage) -> None:

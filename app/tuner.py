@@ -1,0 +1,471 @@
+"""Tuning: what the panel asks for goes between guards to the controller; what was measured goes into the logbook."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from concurrent.futures import Future
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, Signal
+
+from app.connection import Connection
+from app.run import Ask, Run
+from app.session import Session
+from app.tick import Tick, failure_of
+from app.tuner_book import Book
+from codegen.fields import Dimension
+from device.api import Controller, Kind, State
+from widgets.display.readings import unit_of
+from widgets.parts.units import shown
+from widgets.tuner.asked import UNSURE, VELOCITY, Asked, Judged
+from widgets.tuner.panel import AUTOMATIC, MODEL, TunerPanel
+
+if TYPE_CHECKING:
+    from app.tuner_maths import Proposal
+    from device.download import Job
+    from device.tuning.bench import Excited, Found, Measured, Wish
+    from device.tuning.identify import Estimate
+    from device.tuning.loop import Gains
+    from device.tuning.run import Present
+    from widgets.tuner.plots import Curve
+
+MOST_DRAWN = 4  # responses over each other
+
+
+class Tuner(QObject):
+    """One run at a time; everything it starts is inside `device.tuning.guards`."""
+
+    said = Signal(str)
+
+    def __init__(
+        self,
+        connection: Connection,
+        session: Session,
+        run: Run,
+        tick: Tick,
+        panel: TunerPanel,
+        book: Book,
+        ask: Ask,
+        careful: Callable[[str, Callable[[], object]], None],
+        folder: Path,
+        parent: QObject | None = None,
+        now: Callable[[], datetime] = datetime.now,
+    ) -> None:
+        super().__init__(parent)
+        self._connection, self._session, self._run, self._tick = connection, session, run, tick
+        self._panel, self._ask, self._careful, self._now = panel, ask, careful, now
+        self.folder, self._book = folder, book
+        self.job: Job[Any] | None = None
+        self.estimate: Estimate | None = None
+        self.proposal: Proposal | None = None
+        self._excited: Excited | None = None
+        self._present: Present | None = None
+        self._drawn: list[Curve] = []
+        self._trials: list[tuple[Measured, str]] = []
+        self._shown_trials = 0
+        self._since = -math.inf  # what was read before this moment is from before a run
+        panel.judge = self.judge
+        panel.axis_chosen.connect(self._axis_chosen)
+        panel.start_wanted.connect(self._start)
+        panel.cancel_wanted.connect(self.cancel)
+        panel.use_wanted.connect(self._use)
+        panel.burn_wanted.connect(self._burn)
+        panel.zero_wanted.connect(self._zero)
+        panel.target_wanted.connect(self._design)
+        panel.predicted_wanted.connect(self._run_predicted)
+        panel.page_opened.connect(lambda _page: self._join_pages())
+        connection.changed.connect(lambda _controller: self._another())
+        self._joined = False
+
+    # ---- what would happen
+
+    def wish(self, asked: Asked) -> Wish:
+        """The same as the controller's side takes it."""
+        from device.tuning.bench import Wish
+
+        return Wish(asked.axis, asked.step, asked.gains, asked.torque, asked.seconds)
+
+    def judge(self, asked: Asked) -> Judged:
+        """Where the axis will go, in its unit, and what ends it; or why it can not."""
+        wish = self.wish(asked)
+        if wish.problem:
+            return Judged("", f"{wish.problem[:1].upper()}{wish.problem[1:]}")
+        setup = self._session.document.working_setup
+        axis, guard = setup.axis(asked.axis), wish.guard
+        row, key = self._connection.controller.last(), f"commanded.{asked.axis.lower()}"
+        place = row.value(key) if row.time(key) > self._since else math.nan
+        low, high = place - guard.reverse, place + guard.forward
+        if not (low <= high):
+            return Judged("", f"Where axis {asked.axis} stands is not known yet.")
+        limits = [float(setup.counts(Dimension.POSITION, asked.axis, each)) for each in _soft(axis)]
+        if limits and not limits[0] <= low <= high <= limits[1]:
+            return Judged("", f"That passes a limit of the setup: {self._between(low, high, asked.axis)}.")
+        return Judged(
+            f"{asked.axis} moves by {shown(asked.step, axis)} {unit_of(axis)} and back, and stays between "
+            f"{self._between(low, high, asked.axis)}; beyond {guard.error} counts of error its motor goes off."
+        )
+
+    def _between(self, low: float, high: float, letter: str) -> str:
+        axis = self._session.document.working_setup.axis(letter)
+        return f"{shown(low, axis)} and {shown(high, axis)} {unit_of(axis)}"
+
+    # ---- runs
+
+    def _start(self, page: int, asked: Asked) -> None:
+        begin = {AUTOMATIC: self._automatic, MODEL: self._identify}.get(page, self._step)
+        self._careful("Tune", partial(begin, asked))
+
+    def cancel(self) -> None:
+        """Ends the run at its next line; what it changed is put back."""
+        if self.job is not None:
+            self.job.cancel()
+            self._panel.show_result("Cancelling…")
+
+    def _step(self, asked: Asked) -> None:
+        self._run_step(asked, "manual", self._measured)
+
+    def _run_step(self, asked: Asked, method: str, then: Callable[[Measured, str], None]) -> None:
+        from device.tuning.run import run_step
+
+        job = run_step(self._connection.controller, self.wish(asked), self.folder, self._now())
+        self._begin(job, f"Measuring a step of {asked.axis}", lambda measured: then(measured, method))
+
+    def _automatic(self, asked: Asked) -> None:
+        if asked.drive != UNSURE:
+            self._search(asked, asked.drive == VELOCITY)
+            return
+        self._panel.automatic.show_result("First the axis is asked by a small excitation what mode its drive is in.")
+        self._excite(asked, lambda excited: self._recognise(asked, excited))
+
+    def _recognise(self, asked: Asked, excited: Excited) -> None:
+        from app.tuner_maths import estimated, in_background
+        from device.tuning.identify import Estimate
+
+        def done(future: Future[Any]) -> None:
+            self._ended()
+            found = None if failure_of(future) else future.result()
+            if not isinstance(found, Estimate):
+                words = "The drive's mode could not be found out; choose it in the field Drive mode."
+                self._panel.automatic.show_result(words, good=False)
+                self._panel.show_result(words, good=False)
+                return
+            self.estimate, self._excited = found, excited
+            self._search(asked, found.plant.velocity_mode)
+
+        self._show_running("Working out the drive's mode…")
+        self._tick.when_done(in_background(partial(estimated, excited)), done)
+
+    def _search(self, asked: Asked, velocity: bool) -> None:
+        from device.tuning.run import run_automatic
+
+        self._trials, self._shown_trials = [], 0
+        self._panel.automatic.trials.clear()
+        self._panel.automatic.show_result("")
+        job = run_automatic(
+            self._connection.controller, self.wish(asked), self.folder, self._now(),
+            lambda measured, why: self._trials.append((measured, why)), velocity=velocity,
+        )  # fmt: skip
+        self._begin(job, f"Tuning {asked.axis}", self._found)
+
+    def _found(self, found: Found) -> None:
+        self._show_trials()
+        best = next((each for each in reversed(found.trials) if each.gains == found.gains), None)
+        if best is None and found.gains is not None:
+            kept = [each for each in found.trials if _same(each.gains, found.gains)]
+            best = kept[-1] if kept else None
+        self._panel.automatic.show_result(found.words, good=found.gains is not None)
+        if found.gains is not None:
+            self._panel.manual.gains.show_gains(found.gains)
+            self._panel.show_result("Recommended gains are in the fields; the controller has its former ones.")
+        if best is not None:
+            self._keep(best, "automatic", found.words)
+
+    def _identify(self, asked: Asked) -> None:
+        self._excite(asked, partial(self._work_out, asked))
+
+    def _excite(self, asked: Asked, then: Callable[[Excited], None]) -> None:
+        from device.tuning.run import run_excitation
+
+        job = run_excitation(self._connection.controller, self.wish(asked), self.folder, self._now())
+        self._begin(job, f"Exciting {asked.axis}", then)
+
+    def _work_out(self, asked: Asked, excited: Excited) -> None:
+        from app.tuner_maths import estimate_words, estimated, in_background
+        from device.tuning.identify import Estimate
+
+        def done(future: Future[Any]) -> None:
+            self._ended()
+            failure = failure_of(future)
+            found = None if failure else future.result()
+            if not isinstance(found, Estimate):
+                self._panel.model.show_estimate(failure or found.reason, good=False)
+                self._panel.show_result("The axis was not identified.", good=False)
+                return
+            self.estimate, self._excited = found, excited
+            self._panel.model.show_estimate(estimate_words(found))
+            self._panel.show_result("")
+            self._propose(None, asked)
+
+        self._show_running("Working out what the axis is…")
+        self._tick.when_done(in_background(partial(estimated, excited)), done)
+
+    def _design(self, crossover: float, phase: float) -> None:
+        from device.tuning.design import Target
+
+        if self.estimate is not None:
+            self._propose(Target(crossover, phase), self._panel.asked)
+
+    def _propose(self, target: Any, asked: Asked) -> None:
+        from app.tuner_maths import in_background, proposed
+
+        assert self.estimate is not None and self._excited is not None
+        excited = self._excited
+        work = partial(
+            proposed, self.estimate, target, excited.period, excited.gains, asked.step, min(asked.seconds, 1.0)
+        )
+        self._tick.when_done(in_background(work), self._proposed)
+
+    def _proposed(self, future: Future[Any]) -> None:
+        failure, model, panel = failure_of(future), self._panel.model, self._panel
+        if failure:
+            model.show_design(None, None, failure)
+            return
+        proposal: Proposal = future.result()
+        self.proposal = proposal
+        if proposal.target is not None:
+            model.show_target(proposal.target.crossover, proposal.target.phase)
+            if panel.bode_plot is not None:
+                panel.bode_plot.show_target(proposal.target.crossover, proposal.target.phase)
+        if panel.bode_plot is not None:
+            panel.bode_plot.show_bode(proposal.bode, proposal.margins)
+        model.show_usable(True)
+        model.show_design(proposal.gains, proposal.margins, proposal.words)
+        if proposal.gains is not None:
+            panel.manual.gains.show_gains(proposal.gains)
+            self._draw_predicted()
+
+    def _draw_predicted(self) -> None:
+        from device.tuning.metrics import measure
+        from widgets.tuner.plots import Curve
+
+        proposal = self.proposal
+        if proposal is None or proposal.predicted is None or proposal.gains is None:
+            return
+        found = measure(proposal.predicted, proposal.gains.torque_limit)
+        curve = Curve(proposal.predicted, "Predicted", predicted=True)
+        self._panel.show_curves(
+            [*self._drawn[-1:], curve], None if isinstance(found, str) else found, proposal.gains.torque_limit
+        )
+
+    def _run_predicted(self, asked: Asked) -> None:
+        """The step with the proposed gains, measured and laid over its prediction."""
+        proposal = self.proposal
+        if proposal is None or proposal.gains is None:
+            return
+        gains = proposal.gains
+        wanted = Asked(asked.axis, asked.step, gains, asked.torque, asked.seconds, asked.drive)
+        self._careful("Tune", lambda: self._run_step(wanted, "model", self._measured))
+
+    # ---- what came of it
+
+    def _measured(self, measured: Measured, method: str) -> None:
+        self._keep(measured, method, measured.words)
+        self._panel.show_result(measured.words, good=not measured.vibrates)
+
+    def _keep(self, measured: Measured, method: str, words: str) -> None:
+        """Drawn, and a line of the logbook."""
+        from device.tuning.entry import Entry, gains_words
+        from widgets.tuner.plots import Curve
+
+        self._book.last = measured
+        curves = [Curve(measured.response, gains_words(measured.gains))]
+        if method == "model" and self.proposal is not None and self.proposal.predicted is not None:
+            curves.insert(0, Curve(self.proposal.predicted, "Predicted", predicted=True, quiet=True))
+        else:
+            curves = [*self._drawn[-MOST_DRAWN + 1 :], *curves]
+        self._drawn = [*self._drawn, Curve(measured.response, gains_words(measured.gains), quiet=True)][-MOST_DRAWN:]
+        self._panel.show_curves(curves, measured.metrics, measured.gains.torque_limit)
+        entry = Entry(
+            0, self._now().isoformat(timespec="seconds"), measured.axis, method, measured.gains, measured.step,
+            measured.response, measured.metrics, words, self._estimate_data(method),
+            controller=self._connection.controller.who,
+        )  # fmt: skip
+        self._book.add(entry)
+
+    def _estimate_data(self, method: str) -> dict[str, float | str]:
+        if method != "model" or self.estimate is None:
+            return {}
+        from app.tuner_maths import estimate_data
+
+        return estimate_data(self.estimate)
+
+    def _zero(self) -> None:
+        """The graph is empty; the next step is drawn from 0."""
+        self._drawn.clear()
+        self._panel.show_curves([], None, 10.0)
+
+    # ---- gains in the controller
+
+    def _use(self, axis: str, gains: Gains) -> None:
+        self._careful("Set gains", partial(self._set, axis, gains))
+
+    def _set(self, axis: str, gains: Gains) -> None:
+        from device.tuning.run import use_gains
+
+        def done(future: Future[Any]) -> None:
+            failure = failure_of(future)
+            self._panel.show_result(failure or future.result(), good=not failure)
+            self.read_present()
+
+        self._tick.when_done(use_gains(self._connection.controller, axis, gains), done)
+
+    def _burn(self, axis: str, gains: Gains) -> None:
+        from device.setup_transfer import burn_words, read_setup
+        from device.tuning.entry import gains_words
+
+        controller = self._connection.controller
+
+        def told(future: Future[Any]) -> None:
+            failure = failure_of(future)
+            if failure or controller.model is None or controller is not self._connection.controller:
+                self._panel.show_result(f"Nothing was burned. {failure}", good=False)
+                return
+            words = f"Axis {axis} gets {gains_words(gains)}. {burn_words(future.result(), controller.model, 0)}"
+            answers = [("Write to EEPROM", lambda: self._burn_now(controller, axis, gains))]
+            self._ask("Save the PID gains?", words, answers, "warning")
+
+        self._careful("Burn", lambda: self._tick.when_done(read_setup(controller), told))
+
+    def _burn_now(self, controller: Controller, axis: str, gains: Gains) -> None:
+        from device.tuning.run import burn
+
+        def done(future: Future[Any]) -> None:
+            failure = failure_of(future)
+            reply = None if failure else future.result()
+            good = reply is not None and reply.accepted
+            words = "The gains are in the EEPROM: they are there after the next power-up." if good else (
+                f"Nothing was burned. {failure or reply.reason}"
+            )  # fmt: skip
+            self._panel.show_result(words, good=good)
+            self.read_present()
+
+        if controller is self._connection.controller:
+            self._tick.when_done(burn(controller, axis, gains), done)
+
+    # ---- around a run
+
+    def _begin(self, job: Job[Any], words: str, then: Callable[[Any], None]) -> None:
+        self.job = self._run.job = job
+        self._run.doing = words
+        self._show_running(f"{words}…")
+
+        def done(future: Future[Any]) -> None:
+            self._ended()
+            failure = failure_of(future)
+            self._show_trials()
+            if failure:
+                self._panel.show_result(failure, good=False)
+            else:
+                then(future.result())
+            self.read_present()
+
+        self._tick.when_done(job.future, done)
+
+    def _show_running(self, words: str) -> None:
+        self._panel.show_running(words)
+        self._panel.show_result(words)
+
+    def _ended(self) -> None:
+        self._since = self._connection.controller.clock()
+        if self._run.job is self.job:
+            self._run.job, self._run.doing = None, ""
+        self.job = None
+        self._panel.show_running("")
+
+    def look(self) -> None:
+        """With each tick: how far it is, and the trials that have come."""
+        self._show_trials()
+        job = self.job
+        if job is not None and not job.future.done() and job.phase not in ("waiting", "") and not job.cancelled:
+            share = f", {job.fraction:.0%}" if job.total else ""
+            self._panel.show_result(f"{self._panel.running.rstrip('…')}: {job.phase}{share}…")
+        state = self._connection.controller.state
+        if self._present is None and self._panel.isVisible() and state is State.READY and not self._reading:
+            self.read_present()
+
+    _reading = False
+
+    def _show_trials(self) -> None:
+        from device.tuning.entry import gains_words
+        from widgets.tuner.plots import Curve
+
+        while self._shown_trials < len(self._trials):
+            measured, why = self._trials[self._shown_trials]
+            before = self._trials[self._shown_trials - 1][0] if self._shown_trials else None
+            self._shown_trials += 1
+            self._panel.automatic.add_trial(why, measured.gains, measured.words)
+            curves = [Curve(before.response, "Before", quiet=True)] if before is not None else []
+            curves.append(Curve(measured.response, gains_words(measured.gains)))
+            self._panel.show_curves(curves, measured.metrics, measured.gains.torque_limit)
+
+    def _axis_chosen(self, axis: str) -> None:
+        self._drawn.clear()
+        self.estimate = self.proposal = self._excited = None
+        self._panel.show_curves([], None, 10.0)
+        self._panel.model.show_usable(False)
+        if self._panel.bode_plot is not None:
+            self._panel.bode_plot.show_bode(None, None)
+        self._join_pages()
+        self.read_present(into_fields=True)
+
+    def _join_pages(self) -> None:
+        """The panel's pages are made when it is first shown."""
+        if self._joined:
+            return
+        self._joined = True
+        self._panel.manual.present.clicked.connect(lambda: self.read_present(into_fields=True))
+        self._book.join()
+
+    def _another(self) -> None:
+        """Another controller: what was known belongs to the one before."""
+        self._since = -math.inf
+        self.estimate = self.proposal = self._excited = self._present = None
+        if self._joined:
+            self._panel.show_present(None)
+            self._book.refresh()
+
+    def read_present(self, into_fields: bool = False) -> None:
+        """The gains that the controller holds now, beside the fields."""
+        from device.tuning.run import read_present
+
+        controller, axis = self._connection.controller, self._panel.axis
+        if controller.kind is Kind.OFFLINE or controller.state is not State.READY or self.job is not None:
+            return
+        self._reading = True
+
+        def done(future: Future[Any]) -> None:
+            self._reading = False
+            if failure_of(future) or controller is not self._connection.controller or axis != self._panel.axis:
+                return
+            self._present = future.result()
+            self._panel.show_present(future.result().gains)
+            if into_fields:
+                self._panel.manual.gains.show_gains(future.result().gains)
+
+        self._tick.when_done(read_present(controller, axis), done)
+
+
+def _same(one: Gains, other: Gains) -> bool:
+    return (one.kp, one.ki, one.kd) == (other.kp, other.ki, other.kd)
+
+
+def _soft(axis: Any) -> list[Any]:
+    """Both soft limits of the setup in units, or nothing where one is missing."""
+    from codegen.numbers import parse_number
+
+    found = [parse_number(text) for text in (axis.reverse_limit, axis.forward_limit)]
+    return [] if None in found else found

@@ -1,0 +1,108 @@
+"""The tuner's mathematics in a thread of its own, so that neither the window nor the line waits for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TypeVar
+
+from device.tuning.bench import Excited
+from device.tuning.design import Design, Refusal, Target, design, propose
+from device.tuning.excite import NotIdentified
+from device.tuning.identify import Estimate, identify
+from device.tuning.loop import Bode, Gains, Margins, bode, margins
+from device.tuning.metrics import Response
+from device.tuning.predict import predict, step
+
+T = TypeVar("T")
+HERTZ = 6.283185307179586  # rad/s
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """What a target comes to: gains with their margins and predicted step, or why not."""
+
+    target: Target | None
+    gains: Gains | None
+    margins: Margins | None
+    bode: Bode | None
+    predicted: Response | None
+    words: str
+
+
+def in_background(call: Callable[[], T]) -> Future[T]:
+    """Begins at once; whoever asked is told by the tick."""
+    pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="tuner")
+    future = pool.submit(call)
+    pool.shutdown(wait=False)
+    return future
+
+
+def estimated(excited: Excited) -> Estimate | NotIdentified:
+    """What an excitation tells of the axis."""
+    if isinstance(excited.recording, NotIdentified):
+        return excited.recording
+    return identify((excited.recording,))
+
+
+def proposed(
+    estimate: Estimate, target: Target | None, period: float, keep: Gains, counts: int, seconds: float
+) -> Proposal:
+    """Gains for a target (none: a sound one), and the step they will give."""
+    plant = estimate.plant
+    wanted = target or propose(plant, period, keep)
+    if wanted is None:
+        return Proposal(None, None, None, None, None, "No crossover can be reached with this axis; tune it by hand.")
+    found = design(plant, wanted, period, keep)
+    if isinstance(found, Refusal):
+        near = found.nearest_target
+        words = f" The nearest that can be reached: {near.crossover / HERTZ:.3g} Hz, {near.phase:.0f}°." if near else ""
+        shown = found.nearest.gains if found.nearest is not None else keep
+        return Proposal(
+            wanted, None, margins(plant, shown, period), bode(plant, shown, period), None, found.reason + words
+        )
+    return _good(estimate, wanted, found, period, counts, seconds)
+
+
+def _good(estimate: Estimate, wanted: Target, found: Design, period: float, counts: int, seconds: float) -> Proposal:
+    commanded = step(counts, max(round(seconds / period), 2), at=12)
+    return Proposal(
+        wanted, found.gains, found.margins, bode(estimate.plant, found.gains, period),
+        predict(estimate.plant, found.gains, commanded, period), " ".join(found.notes),
+    )  # fmt: skip
+
+
+def estimate_words(estimate: Estimate) -> str:
+    """The axis in a few lines: what its gain, friction, weight, delay and resonance are, and how sure that is."""
+    plant, sigma = estimate.plant, estimate.sigma
+
+    def told(name: str, value: float, unit: str, scale: float = 1.0) -> str:
+        spread = f" ± {sigma[name] * scale:.2g}" if sigma.get(name) else ""
+        return f"{value * scale:.4g}{spread} {unit}"
+
+    parts = [f"One volt gives {told('gain', plant.gain, 'counts/s²')}"]
+    if plant.pole:
+        parts.append(f"friction pole {told('pole', plant.pole, 'rad/s')}")
+    if plant.coulomb:
+        parts.append(f"dry friction {told('coulomb', plant.coulomb, 'V')}")
+    if abs(plant.gravity) > 0.01:
+        parts.append(f"weight {told('gravity', plant.gravity, 'V')}")
+    parts.append(f"delay {told('delay', plant.delay, 'ms', 1000.0)}")
+    if plant.resonance is not None:
+        parts.append(f"first resonance {told('frequency', plant.resonance.frequency, 'Hz')}")
+    mode = " It answers like a drive in velocity mode." if plant.velocity_mode else ""
+    notes = f" {' '.join(estimate.notes)}" if estimate.notes else ""
+    return f"{', '.join(parts)}. {estimate.fit:.0%} of the motion is explained.{mode}{notes}"
+
+
+def estimate_data(estimate: Estimate) -> dict[str, float | str]:
+    """As the logbook keeps it."""
+    plant = estimate.plant
+    data: dict[str, float | str] = {
+        "gain": plant.gain, "pole": plant.pole, "coulomb": plant.coulomb, "gravity": plant.gravity,
+        "delay": plant.delay, "fit": estimate.fit, "words": estimate_words(estimate),
+    }  # fmt: skip
+    if plant.resonance is not None:
+        data["resonance"] = plant.resonance.frequency
+    return data

@@ -1,0 +1,150 @@
+"""What a tuning that broke off has left: its former gains are offered first thing when the machine is there again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, Signal
+
+from app.connection import Connection
+from app.run import Ask
+from app.tick import Tick, failure_of
+from device.api import Controller, Kind, State
+
+if TYPE_CHECKING:
+    from device.tuning.guards import Former
+
+TITLE = "A tuning was interrupted"
+
+
+class Offer(QObject):
+    """Looks into the folder when a controller answers; says at the start what is waiting for its machine."""
+
+    said = Signal(str)
+
+    def __init__(
+        self,
+        connection: Connection,
+        tick: Tick,
+        ask: Ask,
+        folder: Path,
+        running: Callable[[], bool],
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._connection, self._tick, self._ask, self._folder, self._running = connection, tick, ask, folder, running
+        self._looked_at: Controller | None = None  # and its values, or nothing left behind, were told
+        self._told = False
+
+    def look(self) -> None:
+        """With each tick; the folder is read once for every connection."""
+        if not self._told:
+            self._told = True
+            self._tell_at_start()
+        controller = self._connection.controller
+        if controller.kind is Kind.OFFLINE or controller.state is not State.READY:
+            self._looked_at = None
+            return
+        if controller is self._looked_at or self._running() or controller.model is None or controller.resting():
+            return
+        self._looked_at = controller
+        self.offer(controller)
+
+    def offer(self, controller: Controller) -> None:
+        """Asks about the axes of this controller, one after the other."""
+        left = self._left(controller)
+        if left:
+            from device.tuning.guards import now_there
+
+            former = left[0]
+            self._tick.when_done(now_there(controller, former), partial(self._compare, controller, former))
+
+    def _left(self, controller: Controller) -> list[Former]:
+        """The oldest of each axis: it holds the values from before all of them."""
+        if not self._folder.is_dir():
+            return []
+        from device.tuning.guards import left_behind, meant
+
+        found: dict[str, Former] = {}
+        for former in left_behind(self._folder):
+            if meant(former, controller):
+                found.setdefault(former.axis, former)
+        return list(found.values())
+
+    def _tell_at_start(self) -> None:
+        if not self._folder.is_dir():
+            return
+        from device.tuning.guards import left_behind
+
+        for former in left_behind(self._folder)[:1]:
+            self.said.emit(
+                f"The tuning of axis {former.axis} of {former.who} was interrupted. Connect it: its former gains "
+                f"({former.gains()}) are offered first."
+            )
+
+    def _compare(self, controller: Controller, former: Former, future: Future[Any]) -> None:
+        if controller is not self._connection.controller:
+            return
+        if failure_of(future):
+            self._looked_at = None  # it is asked again
+            return
+        there = future.result()
+        if there == dict(former.values):
+            self._forget(controller, former)
+            self.said.emit(f"Axis {former.axis} already has the values from before its interrupted tuning.")
+            return
+        self._put(controller, former, there)
+
+    def _put(self, controller: Controller, former: Former, there: dict[str, int]) -> None:
+        from device.tuning.guards import number
+
+        differ = [name for name, value in former.values.items() if there.get(name) != value]
+        now = ", ".join(f"{name} {number(there[name])}" for name in differ if name in there)
+        before = ", ".join(f"{name} {number(former.values[name])}" for name in differ)
+        words = (
+            f"The tuning of axis {former.axis} that began on {former.when[:16].replace('T', ' at ')} did not come to "
+            f"its end. The controller holds {now}. Before it: {before}. Putting them back moves nothing and burns "
+            "nothing; a jog at speed 0 that was left is stopped."
+        )
+        put = "Put the former values back" if controller.control else "Take Control and put them back"
+        answers = [
+            (put, lambda: self._put_back(controller, former)),
+            ("Keep what the controller holds", lambda: self._keep(controller, former)),
+        ]
+        self._ask(TITLE, words, answers, "warning")
+
+    def _put_back(self, controller: Controller, former: Former) -> None:
+        from device.tuning.guards import put_back
+
+        if controller is not self._connection.controller:
+            self.said.emit("Not put back: another controller is connected now.")
+            return
+        controller.take_control()
+
+        def done(future: Future[Any]) -> None:
+            failure = failure_of(future)
+            if failure:
+                again = [("Try again", lambda: self._put_back(controller, former))]
+                self._ask("The former values are not back", failure, again, "problem")
+                return
+            self._forget(controller, former)
+            self.said.emit(future.result())
+
+        self._tick.when_done(put_back(controller, former), done)
+
+    def _keep(self, controller: Controller, former: Former) -> None:
+        self._forget(controller, former)
+        self.said.emit(f"Axis {former.axis} keeps what the controller holds; its former values were {former.gains()}.")
+
+    def _forget(self, controller: Controller, former: Former) -> None:
+        """All that was left of this axis; then the next one is asked about."""
+        from device.tuning.guards import forget, left_behind, meant
+
+        for each in left_behind(self._folder):
+            if each.axis == former.axis and meant(each, controller):
+                forget(each)
+        self.offer(controller)

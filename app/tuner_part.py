@@ -1,0 +1,38 @@
+"""The tuner with its logbook and what an interrupted tuning left: made and joined here, with the first tick."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from app.tuner import Tuner
+from app.tuner_book import Book
+from app.tuner_offer import Offer
+from widgets.tuner.panel import TunerPanel
+
+if TYPE_CHECKING:
+    from app.compose import Studio
+
+FOLDER = "tuning"
+
+
+class TunerPart(QObject):
+    """`panel` goes into a dock; everything else is joined already."""
+
+    def __init__(self, studio: Studio, data: Path) -> None:
+        super().__init__(studio)
+        folder, now = data / FOLDER, datetime.now
+        connection, session, tick, ask = studio.connection, studio.session, studio.tick, studio.desk.ask
+        self.panel = TunerPanel()
+        self.book = Book(connection, session, self.panel, folder, studio.window, now)
+        self.tuner = Tuner(
+            connection, session, studio.run, tick, self.panel, self.book, ask, studio.right.careful, folder, self, now
+        )
+        self.offer = Offer(connection, tick, ask, folder, lambda: self.tuner.job is not None, self)
+        for part in (self.book, self.tuner, self.offer):
+            part.said.connect(studio.desk.say)
+        tick.each(self.tuner.look)
+        tick.each(self.offer.look)

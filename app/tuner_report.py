@@ -1,0 +1,121 @@
+"""The commissioning report of tuned axes: gains, response, estimate and note of every run, as pages of paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt, QUrl
+from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPolygonF, QTextDocument
+
+from codegen.document import Document
+from codegen.setup import Setup
+from device.tuning.entry import TITLES, Entry, gains_words
+from device.tuning.metrics import Response
+from widgets.display.readings import unit_of
+from widgets.parts.units import scale_of
+from widgets.program.printing import make_pages
+from widgets.tuner.panel import metrics_words
+
+WIDTH, HEIGHT, SCALE = 600, 200, 3  # of a picture on the page in px, and how much finer it is drawn
+LEFT, RIGHT, TOP, BOTTOM = 64, 8, 10, 28
+
+
+def report_pages(setup: Setup, entries: Sequence[Entry], controller: str, date: str) -> QTextDocument:
+    """The runs, oldest first, each with its picture."""
+    heading = escape(f"{setup.name or setup.limits.title}: commissioning of the servo axes")
+    parts = [
+        f"<h1>{heading}</h1>",
+        f"<p class='quiet'>{escape(controller)} · {escape(date)}</p>",
+        _table(entries),
+    ]
+    for entry in entries:
+        parts.append(_section(setup, entry))
+    pages = make_pages("", Document(setup=setup))
+    size = pages.pageSize()
+    for entry in entries:
+        image = picture(entry.response, scale_of(setup.axis(entry.axis)), unit_of(setup.axis(entry.axis)))
+        pages.addResource(QTextDocument.ResourceType.ImageResource.value, QUrl(f"run-{entry.number}"), image)
+    pages.setHtml("".join(parts))
+    pages.setMetaInformation(QTextDocument.MetaInformation.DocumentTitle, "Commissioning report")
+    pages.setPageSize(size)
+    return pages
+
+
+def _table(entries: Sequence[Entry]) -> str:
+    rows = "".join(
+        f"<tr><td>{entry.number}</td><td>{escape(entry.axis)}</td><td>{escape(TITLES.get(entry.method, ''))}</td>"
+        f"<td>{escape(entry.when.replace('T', ' '))}</td><td class='code'>{escape(gains_words(entry.gains))}</td>"
+        f"<td>{escape(_settled(entry))}</td></tr>"
+        for entry in entries
+    )
+    head = "".join(f"<td><b>{each}</b></td>" for each in ("Run", "Axis", "Method", "When", "Gains", "Settled"))
+    return f"<table width='100%' cellspacing='0'><tr>{head}</tr>{rows}</table>"
+
+
+def _settled(entry: Entry) -> str:
+    metrics = entry.metrics
+    return "–" if metrics is None or metrics.settling_time is None else f"{metrics.settling_time * 1000:.0f} ms"
+
+
+def _section(setup: Setup, entry: Entry) -> str:
+    step = entry.step / scale_of(setup.axis(entry.axis))
+    told = [
+        f"Step of {step:.4g} {unit_of(setup.axis(entry.axis))} ({entry.step} counts) with {gains_words(entry.gains)}; "
+        f"torque limit {entry.gains.torque_limit:.3g} V.",
+        metrics_words(entry.metrics),
+        entry.words if entry.method == "automatic" else "",
+        str(entry.estimate.get("words", "")),
+    ]
+    note = f"<p><i>{escape(entry.note)}</i></p>" if entry.note else ""
+    words = "<br/>".join(escape(each) for each in told if each)
+    return (
+        f"<h2>Run {entry.number}, axis {escape(entry.axis)}: {escape(TITLES.get(entry.method, ''))}</h2><p>{words}</p>"
+        f"{note}<p><img src='run-{entry.number}' width='{WIDTH}' height='{HEIGHT}'/></p>"
+    )
+
+
+def picture(response: Response, scale: float, unit: str) -> QImage:
+    """Commanded (grey) and actual position over time, black on white, for paper."""
+    image = QImage(WIDTH * SCALE, HEIGHT * SCALE, QImage.Format.Format_RGB32)
+    image.fill(Qt.GlobalColor.white)
+    painter = QPainter(image)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.scale(SCALE, SCALE)
+    font = painter.font()
+    font.setPixelSize(10)
+    painter.setFont(font)
+    times = np.arange(len(response.actual)) * response.period * 1000.0
+    actual, commanded = response.actual / scale, response.commanded / scale
+    low, high = float(min(actual.min(), commanded.min())), float(max(actual.max(), commanded.max()))
+    room = (high - low) * 0.06 or 1.0
+    low, high = low - room, high + room
+    frame = QRectF(LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM)
+
+    def at(time: float, value: float) -> QPointF:
+        x = frame.left() + frame.width() * time / (times[-1] or 1.0)
+        return QPointF(x, frame.bottom() - frame.height() * (value - low) / (high - low))
+
+    _grid(painter, frame, float(times[-1]), low, high, unit)
+    for values, colour, width in ((commanded, "#777777", 1.0), (actual, "#0067a8", 1.6)):
+        painter.setPen(QPen(QColor(colour), width))
+        painter.drawPolyline(QPolygonF([at(float(t), float(v)) for t, v in zip(times, values, strict=True)]))
+    painter.end()
+    return image
+
+
+def _grid(painter: QPainter, frame: QRectF, last_ms: float, low: float, high: float, unit: str) -> None:
+    right, centre = Qt.AlignmentFlag.AlignRight, Qt.AlignmentFlag.AlignHCenter
+    for part in (0.0, 0.25, 0.5, 0.75, 1.0):
+        x, y = frame.left() + frame.width() * part, frame.bottom() - frame.height() * part
+        painter.setPen(QPen(QColor("#dddddd"), 0.6))
+        painter.drawLine(QPointF(x, frame.top()), QPointF(x, frame.bottom()))
+        painter.drawLine(QPointF(frame.left(), y), QPointF(frame.right(), y))
+        painter.setPen(QColor("#333333"))
+        label, place = f"{last_ms * part:.0f}", QRectF(x - 30, frame.bottom() + 3, 60, 14)
+        if part == 1.0:
+            label, place = f"{label} ms", QRectF(x - 60, frame.bottom() + 3, 60, 14)
+        painter.drawText(place, centre if part < 1.0 else right, label)
+        told = f"{low + (high - low) * part:.4g}" + (f" {unit}" if part == 1.0 else "")
+        painter.drawText(QRectF(0, y - 7, LEFT - 4, 14), right, told)

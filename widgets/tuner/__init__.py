@@ -1,0 +1,1 @@
+"""The tuner: gains, steps, automatic and model-based tuning, and the logbook."""

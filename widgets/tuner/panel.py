@@ -1,0 +1,379 @@
+"""The tuner: gains by hand, automatic, model-based; the response beside them; every run in a logbook."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QCheckBox,
+    QComboBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from device.api import Kind, State
+from widgets.display.readings import unit_of
+from widgets.panel import Panel, set_text, show_role
+from widgets.parts.units import scale_of
+from widgets.tuner.asked import Asked, Judged
+
+if TYPE_CHECKING:
+    from codegen.document import Document
+    from codegen.setup import Setup
+    from device.api import Controller, Row
+    from device.tuning.loop import Gains
+    from device.tuning.metrics import Metrics
+    from widgets.tuner.pages import AutomaticPage, LogbookPage, ManualPage, ModelPage
+    from widgets.tuner.plots import BodePlot, Curve, StepPlot
+    from widgets.tuner.step_box import StepBox
+
+OFFLINE = "Nothing is connected. Connect a controller or start the simulator to tune an axis."
+WATCHED = "This is Watch: switch to Control to tune."
+NOT_READY = "The controller does not answer at the moment."
+PAGES = ("Manual", "Automatic", "Model", "Logbook")
+MANUAL, AUTOMATIC, MODEL, LOGBOOK = range(4)
+STARTS = ("Start step", "Start automatic tuning", "Identify the axis", "")
+WIDE = 760  # px; narrower and the diagrams go below
+LEFT = 450  # px of the controls where there is room
+
+
+class TunerPanel(Panel):
+    """Asks by signals; whoever joins it to the controller shows what came of it."""
+
+    title = "Tuner"
+    moves = True
+    axis_chosen = Signal(str)
+    start_wanted = Signal(int, object)  # page, Asked
+    cancel_wanted = Signal()
+    use_wanted = Signal(str, object)  # axis, gains
+    burn_wanted = Signal(str, object)
+    save_wanted = Signal()
+    zero_wanted = Signal()
+    target_wanted = Signal(float, float)  # rad/s, degrees
+    predicted_wanted = Signal(object)  # Asked: the step with the proposed gains
+    page_opened = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._setup: Setup | None = None
+        self._fitted: tuple[object, str] | None = None
+        self._made = False
+        self.judge: Callable[[Asked], Judged] = lambda asked: Judged("")
+        self.running = ""  # what is under way, in words
+        self.empty, self.result, self.metrics = QLabel(OFFLINE), QLabel(), QLabel()
+        self.axes, self.pages = QComboBox(), QStackedWidget()
+        self.buttons = [QPushButton(name) for name in PAGES]
+        self.use, self.burn = QPushButton("Use these gains"), QPushButton("Save PID gains…")
+        self.save, self.zero = QPushButton("Save data…"), QPushButton("Zero position")
+        self.error = QCheckBox("Position error")
+        self.manual: ManualPage
+        self.automatic: AutomaticPage
+        self.model: ModelPage
+        self.logbook: LogbookPage
+        self.box: StepBox
+        self.step_plot: StepPlot | None = None
+        self.bode_plot: BodePlot | None = None
+        self._lay_out()
+
+    # ---- what it shows
+
+    def attach(self, controller: Controller) -> None:
+        super().attach(controller)
+        self._fit()
+
+    def show_document(self, old: Document | None, new: Document) -> None:
+        if old is None or old.setup is not new.setup:
+            self._setup = new.working_setup
+            self._fit()
+
+    def watches(self) -> tuple[str, ...]:
+        return (f"commanded.{self.axis.lower()}",) if self._made else ()
+
+    @property
+    def axis(self) -> str:
+        """The axis that is tuned."""
+        return self.axes.currentText() or "X"
+
+    @property
+    def page(self) -> int:
+        return self.pages.currentIndex()
+
+    @property
+    def reason(self) -> str:
+        """Why nothing may be tuned now, or nothing."""
+        controller = self.controller
+        if controller is None or controller.kind is Kind.OFFLINE:
+            return OFFLINE
+        if controller.state is not State.READY:
+            return NOT_READY
+        return "" if controller.control else WATCHED
+
+    @property
+    def asked(self) -> Asked:
+        """What would be started now."""
+        box = self.box
+        return Asked(self.axis, box.counts, self.manual.gains.gains, box.torque, box.record_s, box.drive.currentData())
+
+    @property
+    def problem(self) -> str:
+        """What is wrong with the fields, or nothing."""
+        return self.box.problem or (self.manual.gains.problem if self.page == MANUAL else "")
+
+    def refresh(self, row: Row) -> None:
+        self._fit()
+        if self._made:
+            self._show_usable()
+
+    def show_present(self, gains: Gains | None) -> None:
+        """What the controller holds; into the fields as well where an axis was just chosen."""
+        self.manual.gains.show_there(gains)
+
+    def show_result(self, sentence: str, good: bool = True) -> None:
+        """How the last run ended, or what is under way."""
+        set_text(self.result, sentence)
+        show_role(self.result, "quiet" if good else "problem")
+
+    def show_running(self, words: str) -> None:
+        """A run is under way (nothing: it has ended)."""
+        self.running = words
+        self._show_usable()
+
+    def show_curves(self, curves: Sequence[Curve], metrics: Metrics | None, torque_limit: float) -> None:
+        """Responses over each other, the last one in front with its numbers."""
+        if self.step_plot is not None:
+            self.step_plot.show_curves(curves, torque_limit)
+        set_text(self.metrics, metrics_words(metrics))
+        self.save.setEnabled(bool(curves))
+
+    # ---- inside
+
+    def _show_usable(self) -> None:
+        problem = self.problem
+        judged = Judged("", problem) if problem else self.judge(self.asked)
+        running = bool(self.running)
+        self.box.show_judged(judged, self.reason, running, STARTS[self.page])
+        why = self.reason or self.running or self.manual.gains.problem
+        for button, tip in ((self.use, "Sets KP KI KD FV FA in the controller; nothing is burned"),
+                            (self.burn, "Sets the gains and writes them into the EEPROM, after asking")):  # fmt: skip
+            button.setEnabled(not why)
+            button.setToolTip(why or tip)
+        self.axes.setEnabled(not running)
+        step_problem = self.reason or self.running or judged.problem
+        free = "" if self.box.free.isChecked() else "Look whether the way is free first."
+        self.model.run.setEnabled(self.model.apply.isEnabled() and not (step_problem or free))
+        self.model.run.setToolTip(step_problem or free or "One step with the proposed gains, drawn over the prediction")
+
+    def _fit(self) -> None:
+        """Axes and units of the machine that is connected; made when first shown."""
+        controller, setup = self.controller, self._setup
+        linked = controller is not None and controller.kind is not Kind.OFFLINE and setup is not None
+        if self.empty.isVisibleTo(self) == linked:
+            self.empty.setVisible(not linked)
+            self._area.setVisible(linked)
+        if not linked or not self.isVisible() or setup is None or controller is None:
+            return
+        if not self._made:
+            self._make()
+        letters = controller.axes or setup.letters
+        if (setup, letters) != self._fitted:
+            self._fitted = (setup, letters)
+            self.axes.blockSignals(True)
+            before = self.axis
+            self.axes.clear()
+            self.axes.addItems(list(letters))
+            self.axes.setCurrentText(before if before in letters else letters[0])
+            self.axes.blockSignals(False)
+            self._axis_chosen()
+
+    def _axis_chosen(self) -> None:
+        assert self._setup is not None
+        self.box.show_axis(self._setup, self.axis)
+        axis = self._setup.axis(self.axis)
+        if self.step_plot is not None:
+            self.step_plot.show_scale(scale_of(axis), unit_of(axis), self.axis)
+        self.axis_chosen.emit(self.axis)
+
+    def open_page(self, index: int) -> None:
+        """One of the four."""
+        for number in range(self.pages.count()):  # the room of the page that is seen, not of the tallest
+            size = QSizePolicy.Policy.Preferred if number == index else QSizePolicy.Policy.Ignored
+            self.pages.widget(number).setSizePolicy(QSizePolicy.Policy.Preferred, size)
+        self.pages.setCurrentIndex(index)
+        for number, button in enumerate(self.buttons):
+            button.setChecked(number == index)
+        self.box.setVisible(index != LOGBOOK)
+        for part in (self.box.drive, self.box.drive_label):
+            part.setVisible(index == AUTOMATIC)
+        if self.bode_plot is not None:
+            self.bode_plot.setVisible(index == MODEL)
+        self._show_usable()
+        self.page_opened.emit(index)
+
+    def _start(self) -> None:
+        if not self.problem and not self.reason and not self.running:
+            self.start_wanted.emit(self.page, self.asked)
+
+    def _lay_out(self) -> None:
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(8, 4, 8, 4)
+        self.empty.setWordWrap(True)
+        self.empty.setProperty("role", "quiet")
+        outer.addWidget(self.empty)
+        self._area = QWidget()
+        self._area.hide()
+        outer.addWidget(self._area, 1)
+        outer.addStretch(0)
+
+    def _make(self) -> None:
+        """Everything that needs pyqtgraph, with the first look at it."""
+        from widgets.tuner.pages import AutomaticPage, LogbookPage, ManualPage, ModelPage
+        from widgets.tuner.plots import BodePlot, StepPlot
+        from widgets.tuner.step_box import StepBox
+
+        self._made = True
+        self.manual, self.automatic, self.model, self.logbook = (
+            ManualPage(),
+            AutomaticPage(),
+            ModelPage(),
+            LogbookPage(),
+        )
+        self.box, self.step_plot, self.bode_plot = StepBox(), StepPlot(), BodePlot()
+        self.bode_plot.hide()
+        for page in (self.manual, self.automatic, self.model, self.logbook):
+            self.pages.addWidget(page)
+        self._arrange()
+        self._connect()
+        self.open_page(MANUAL)
+
+    def _connect(self) -> None:
+        from device.tuning.loop import FACTORY
+
+        assert self.step_plot is not None and self.bode_plot is not None
+        box, manual, model = self.box, self.manual, self.model
+        self.axes.currentTextChanged.connect(lambda _text: self._axis_chosen())
+        for edited in (box.edited, manual.gains.edited):
+            edited.connect(self._show_usable)
+        box.start.connect(self._start)
+        box.cancel.connect(self.cancel_wanted)
+        manual.defaults.clicked.connect(lambda: manual.gains.show_gains(FACTORY))
+        self.use.clicked.connect(lambda: self.use_wanted.emit(self.axis, manual.gains.gains))
+        self.burn.clicked.connect(lambda: self.burn_wanted.emit(self.axis, manual.gains.gains))
+        self.save.clicked.connect(self.save_wanted)
+        self.zero.clicked.connect(self.zero_wanted)
+        self.error.toggled.connect(self.step_plot.show_error)
+        model.target_wanted.connect(self.target_wanted)
+        self.bode_plot.target_wanted.connect(self.target_wanted)
+        model.run_wanted.connect(lambda: self.predicted_wanted.emit(self.asked))
+
+    def _arrange(self) -> None:
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.setSpacing(8)
+        column.addLayout(self._top())
+        column.addLayout(self._gains_side())
+        column.addWidget(self.box)
+        self.result.setWordWrap(True)
+        self.result.setProperty("role", "quiet")
+        self.result.setAccessibleName("Result")
+        column.addWidget(self.result)
+        column.addStretch(1)
+        self._scroll = QScrollArea()
+        self._scroll.setWidgetResizable(True)
+        self._scroll.setFrameShape(QFrame.Shape.NoFrame)
+        self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._scroll.setWidget(left)
+        self._box_layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self._area)
+        self._box_layout.setContentsMargins(0, 0, 0, 0)
+        self._box_layout.addWidget(self._scroll)
+        self._box_layout.addWidget(self._right(), 1)
+        self._turn()
+
+    def _gains_side(self) -> QVBoxLayout:
+        column = QVBoxLayout()
+        column.setSpacing(8)
+        column.addWidget(self.pages)
+        row = QHBoxLayout()
+        row.addWidget(self.use)
+        row.addWidget(self.burn)
+        row.addStretch(1)
+        column.addLayout(row)
+        return column
+
+    def _top(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(4)
+        self.axes.setAccessibleName("Axis to tune")
+        row.addWidget(QLabel("Axis"))
+        row.addWidget(self.axes)
+        row.addSpacing(8)
+        for index, button in enumerate(self.buttons):
+            button.setCheckable(True)
+            button.setProperty("role", "segment")
+            button.clicked.connect(lambda _=False, index=index: self.open_page(index))
+            row.addWidget(button)
+        row.addStretch(1)
+        return row
+
+    def _right(self) -> QWidget:
+        assert self.step_plot is not None and self.bode_plot is not None
+        right = QWidget()
+        column = QVBoxLayout(right)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(self.bode_plot, 1)
+        row = QHBoxLayout()
+        self.metrics.setWordWrap(True)
+        self.metrics.setAccessibleName("Measured")
+        self.metrics.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        row.addWidget(self.error)
+        row.addStretch(1)
+        self.zero.setToolTip("Clears the graph: the next step is drawn from 0 and alone. The axis keeps its position.")
+        self.save.setToolTip("The last response as a table (CSV) or for NumPy (npz)")
+        self.save.setEnabled(False)
+        row.addWidget(self.zero)
+        row.addWidget(self.save)
+        column.addLayout(row)
+        column.addWidget(self.step_plot, 1)
+        column.addWidget(self.metrics)
+        return right
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self._made:
+            self._turn()
+
+    def _turn(self) -> None:
+        """Diagrams beside the controls where there is room, else below."""
+        wide = self.width() >= WIDE
+        direction = QBoxLayout.Direction.LeftToRight if wide else QBoxLayout.Direction.TopToBottom
+        if self._box_layout.direction() is not direction:
+            self._box_layout.setDirection(direction)
+        self._scroll.setMaximumWidth(LEFT + 24 if wide else 16_777_215)
+        self._scroll.setMinimumWidth(LEFT if wide else 0)
+        self._scroll.setMinimumHeight(0 if wide else self.height() // 2)
+
+
+def metrics_words(metrics: Metrics | None) -> str:
+    """The numbers of a response in one line."""
+    if metrics is None:
+        return ""
+    rise = "–" if metrics.rise_time is None else f"{metrics.rise_time * 1000:.1f} ms"
+    settled = "did not settle" if metrics.settling_time is None else f"settled in {metrics.settling_time * 1000:.0f} ms"
+    torque = f", ▲ torque at its limit {metrics.saturated:.0%} of the time" if metrics.saturated > 0 else ""
+    return (
+        f"Rise {rise}, overshoot {metrics.overshoot:.0%}, {settled}, steady error {metrics.steady_error:.1f} counts, "
+        f"largest {metrics.peak_error:.0f}{torque}"
+    )
