@@ -265,6 +265,11 @@ def design(plant: AxisPlant, target: Target, period: float, keep: Gains = FACTOR
     found = attempt(case, target)
     if isinstance(found, Design):
         return found
+    for part in (0.5, 0.0):
+        slower = replace(target, integral=target.integral * part)
+        near = attempt(case, slower) if target.integral else found
+        if isinstance(near, Design):
+            return Refusal(f"{found} With {'less' if part else 'no'} integrator it can be reached.", near, slower)
     for n in range(1, TRIES):
         for factor in (RATIO**-n, RATIO**n):
             other = replace(target, crossover=target.crossover * factor)

@@ -76,7 +76,7 @@ def bounds(places: int) -> tuple[Values, Values]:
     return numpy.array(low[:places]), numpy.array(high[:places])
 
 
-def best_rigid(data: Windows, rubbing: bool) -> Generator[float, None, Found]:
+def best_rigid(data: Windows, rubbing: bool, done: float) -> Generator[float, None, Found]:
     """The best machine without a spring."""
 
     def shape(values: Values) -> AxisPlant:
@@ -86,11 +86,11 @@ def best_rigid(data: Windows, rubbing: bool) -> Generator[float, None, Found]:
     for late in TRIED:
         values, fit, curvature = refine(data, numpy.array([0.1, float(late)]), shape, rubbing, *bounds(2))
         found.append(Found(data, rubbing, shape, values, fit, curvature))
-        yield 0.0
+        yield done
     return min(found, key=lambda one: one.fit.cost)
 
 
-def best_springy(base: Found, on_load: bool) -> Generator[float, None, Found]:
+def best_springy(base: Found, on_load: bool, done: float) -> Generator[float, None, Found]:
     """The best machine with a spring, its encoder on one side of it."""
     data, rubbing = base.data, base.rubbing
 
@@ -105,7 +105,7 @@ def best_springy(base: Found, on_load: bool) -> Generator[float, None, Found]:
             for ratio in (1.0,) if on_load else (0.3, 1.5):
                 values = numpy.array([base.values[0], late, math.log(hertz), math.log(0.04), math.log(ratio)])[:places]
                 starts.append((solve(data, shape(values), rubbing).cost, values))
-        yield 0.0
+        yield done
     starts.sort(key=lambda one: one[0])
     values, fit, curvature = refine(data, starts[0][1], shape, rubbing, *bounds(places))
     return Found(data, rubbing, shape, values, fit, curvature)
@@ -169,7 +169,7 @@ def explained(found: Found) -> float:
     return max(0.0, 1.0 - found.fit.cost / whole) if whole > 0.0 else 0.0
 
 
-def notes(found: Found, estimate_sigma: dict[str, float], without_friction: bool) -> tuple[str, ...]:
+def notes(found: Found, sigma: dict[str, float]) -> tuple[str, ...]:
     """What could not be told, and why."""
     plant, said = found.fit.plant, []
     if plant.resonance is None:
@@ -179,9 +179,9 @@ def notes(found: Found, estimate_sigma: dict[str, float], without_friction: bool
         )
     elif plant.resonance.on_load:
         said.append("The encoder sits behind the spring, so it does not tell how the inertia is divided.")
-    if without_friction:
+    if not found.rubbing:
         said.append("Coulomb friction is too small to be told from the counting of the encoder.")
-    if estimate_sigma["pole"] > max(1.0, 0.5 * abs(plant.pole)):
+    if sigma["pole"] > max(1.0, 0.5 * abs(plant.pole)):
         said.append("Viscous friction could not be told: the excitation is too short for it.")
     if plant.velocity_mode:
         said.append("The drive closes a velocity loop of its own: inertia shows only as its lag.")
@@ -216,47 +216,62 @@ def identifying(recordings: Sequence[Recording]) -> Work:
         if isinstance(every, NotIdentified):
             return every
         samples.append(every)
-        yield 0.05
     moved = max((float(numpy.ptp(one.counts)) for one in samples), default=0.0)
-    candidates: list[Found] = []
+    bases: list[Found] = []
     for rubbing in (False, True):
         data = windows(samples, rubbing, LATEST)
-        if data is None or data.samples < FEWEST:
-            continue
-        base = yield from best_rigid(data, rubbing)
-        yield 0.2 + 0.4 * rubbing
-        springs = []
-        for on_load in (False, True) if base.left > EXPECTED * COUNTING else ():
-            springs.append((yield from best_springy(base, on_load)))
-            yield 0.3 + 0.4 * rubbing + 0.1 * on_load
-        good = [one for one in springs if believable(one, base)]
-        candidates.append(min(good, key=lambda one: one.fit.cost) if good else base)
-        if candidates[-1].left <= EXPECTED * COUNTING:
-            break
-    if not candidates:
+        if data is not None and data.samples >= FEWEST:
+            bases.append((yield from best_rigid(data, rubbing, 0.15 * rubbing)))
+            if at_rest(bases[-1]):
+                break
+    if not bases:
         return NotIdentified(
             f"The axis moved {moved:.0f} counts, for too short a time. Allow more travel, or raise KP and KD."
         )
+    if bases[0].left > BETTER * bases[-1].left:
+        bases.reverse()
+    candidates: list[Found] = []
+    for n, base in enumerate(bases):
+        candidates.append((yield from with_spring(base, 0.3 + 0.35 * n)))
+        if at_rest(candidates[-1]) or rubs(candidates[-1]):
+            break
     return concluded(candidates, moved)
+
+
+def at_rest(found: Found) -> bool:
+    """Nothing is left to explain but the counting."""
+    return found.left <= EXPECTED * COUNTING
+
+
+def rubs(found: Found) -> bool:
+    """Coulomb friction is plainly there."""
+    return found.rubbing and found.fit.plant.coulomb > 3.0 * sigmas(found)["coulomb"]
+
+
+def with_spring(base: Found, done: float) -> Generator[float, None, Found]:
+    """With a spring where that explains more, else as it is."""
+    if at_rest(base):
+        return base
+    springs = []
+    for on_load in (False, True):
+        springs.append((yield from best_springy(base, on_load, done + 0.17 * on_load)))
+    good = [one for one in springs if believable(one, base)]
+    return min(good, key=lambda one: one.fit.cost) if good else base
 
 
 def concluded(candidates: list[Found], moved: float) -> Estimate | NotIdentified:
     """The simpler of the models, unless friction is plainly there."""
-    best, without = candidates[0], True
-    if best.rubbing:
-        without = False
-    elif len(candidates) > 1:
-        rubbing = candidates[1]
-        sure = rubbing.fit.plant.coulomb > 3.0 * sigmas(rubbing)["coulomb"]
-        if sure and best.left > BETTER * rubbing.left:
-            best, without = rubbing, False
+    best = candidates[-1]
+    if len(candidates) > 1:
+        smooth, rubbing = sorted(candidates, key=lambda one: one.rubbing)
+        best = rubbing if rubs(rubbing) and smooth.left > BETTER * rubbing.left else smooth
     sigma = sigmas(best)
     weak = too_weak(best, sigma, moved)
     if weak:
         return NotIdentified(weak)
     plant = best.fit.plant
     plant = replace(plant, pole=max(0.0, plant.pole))
-    return Estimate(plant, sigma, explained(best), best.left, notes(best, sigma, without))
+    return Estimate(plant, sigma, explained(best), best.left, notes(best, sigma))
 
 
 def identify(recordings: Sequence[Recording]) -> Estimate | NotIdentified:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy
@@ -99,14 +100,21 @@ def loop(plant: Plant, gains: Gains) -> Loop:
     return Loop(float(OMEGA[first]), phase, apart, bool(poles(plant, gains).max() < 1))
 
 
-def reachable(plant: Plant, crossover: float, phase: float) -> bool:
+def reachable(
+    plant: Plant,
+    crossover: float,
+    phase: float,
+    corners: Sequence[float] = (0, 0.05, 0.1, 0.2, 0.4),
+    slack: Sequence[float] = (0, 0.5, 1),
+    close: tuple[float, float] = (0.11, 5.5),
+) -> bool:
     """Whether any KP, KD, KI within the commands' ranges come to a target within 10 % and 5°, stable, 6 dB apart.
 
-    At one frequency |A| and the phase are two equations for KP and KD once KI is chosen as its corner.
+    At one frequency |A| and the phase are two equations for KP and KD once KI is chosen as its corner. `slack` 0 tries
+    the target itself alone.
     """
-    for part, lead, corner in itertools.product(
-        (0.9, 0.95, 1, 1.05, 1.1), (-5, -2.5, 0, 2.5, 5), (0, 0.05, 0.1, 0.2, 0.4)
-    ):
+    sides = sorted({side * part for part in slack for side in (-1, 1)})
+    for part, lead, corner in itertools.product([1 + 0.1 * s for s in sides], [5 * s for s in sides], corners):
         omega = crossover * part
         change = 1 - complex(math.cos(omega * PERIOD), -math.sin(omega * PERIOD))
         at = complex(machine_response(plant, numpy.array([omega]))[0])
@@ -118,7 +126,7 @@ def reachable(plant: Plant, crossover: float, phase: float) -> bool:
         if not (0 < gains.kp <= 1023.875 and 0 <= gains.kd <= 4095.875 and gains.ki <= 2047.875):
             continue
         found = loop(plant, gains)
-        close = abs(found.crossover / crossover - 1) <= 0.11 and abs(found.phase - phase) <= 5.5
-        if close and found.stable and found.apart >= 0.5:
+        near = abs(found.crossover / crossover - 1) <= close[0] and abs(found.phase - phase) <= close[1]
+        if near and found.stable and found.apart >= 0.5:
             return True
     return False
