@@ -177,7 +177,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
 
 
 def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
-    """The three pages of the jog panel; on the first an axis is held."""
+    """The pages of the jog panel; on the first an axis is held, on the others an end is looked at."""
     stage.until(lambda: not stage.rig.simulation.state()["axes"]["X"]["moving"])
     stage.studio.desk.bring("Jog")
     stage.go(5)
@@ -190,9 +190,15 @@ def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "panel-jog", stage.studio.window
     panel.one.hold_forward.let_go()
     stage.go(30)
-    for number, name in ((1, "line"), (2, "arc")):
+    for number, name in ((1, "line"), (2, "arc"), (3, "stick"), (4, "points")):
         panel.buttons[number].click()
         stage.go()
+        if panel.saved is not None:
+            for place in ("Load", "Park"):
+                panel.saved.name.setText(place)
+                panel.saved.save.click()
+            panel.saved.choose("Load")
+            stage.go()
         yield f"panel-jog-{name}", stage.studio.window
 
 

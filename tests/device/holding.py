@@ -52,7 +52,8 @@ class Hand:
 
     def press(self) -> None:
         self.down = True
-        self.controller.motion.hold("X", SPEED, ACCELERATION, ACCELERATION)
+        held = self.controller.motion.hold("X", SPEED, ACCELERATION, ACCELERATION)
+        held.add_done_callback(lambda done: print(done.exception() or done.result(), file=sys.stderr, flush=True))
         threading.Thread(target=self._renew, daemon=True).start()
 
     def _renew(self) -> None:

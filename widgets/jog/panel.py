@@ -164,14 +164,9 @@ class JogPanel(Panel):
     def show_ghost(self, ghost: Mapping[str, int]) -> None:
         """Where axes will stop, counts: held, on their way, or looked at. Comes with every tick, seen or not."""
         self.ghost = ghost
-        if not self.seen:  # a dock behind another one is not hidden for Qt
+        if not self.in_sight:  # a dock behind another one is not hidden for Qt
             self.preview = {}
             self.holder.let_go()
-
-    @property
-    def seen(self) -> bool:
-        """Whether anything of the panel is on the screen."""
-        return self.isVisible() and not self.visibleRegion().isEmpty()
 
     def show_result(self, sentence: str, good: bool = True) -> None:
         """How the last move by hand ended."""
@@ -252,10 +247,10 @@ class JogPanel(Panel):
     @property
     def pad_wanted(self) -> bool:
         """Whether a gamepad may move something: only on the page of the stick, in the window in front."""
-        return self.open_page == STICK and self.seen and self.isActiveWindow()
+        return self.open_page == STICK and self.in_sight and self.isActiveWindow()
 
     def _drives(self) -> bool:
-        return not self.reason and self.open_page == STICK and self.seen
+        return not self.reason and self.open_page == STICK and self.in_sight
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Arrows hold, with Shift they go one increment; only while the panel itself has the focus."""
@@ -313,7 +308,7 @@ class JogPanel(Panel):
             self.empty.setVisible(not linked)
             self._area.setVisible(linked)
             self._foot.setVisible(linked)
-        if controller is None or self._setup is None or not self.seen:
+        if controller is None or self._setup is None or not self.in_sight:
             return
         page = self._made.page(self.open_page, self._setup)
         if self.pages.currentWidget() is not page:
