@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 OWNER = "commissioning"
 LIVE = ("position", "error", "torque", "motor_off", "forward_limit", "reverse_limit", "home")
+PAUSE_TICKS = 30  # a second without typing
 NOT_CONNECTED = "Connect a controller or start the simulator first."
 
 
@@ -73,6 +74,7 @@ class Commissioning(QObject):
         self.moved: Moved | None = None
         self.measured: Fraction | None = None  # counts in a unit
         self._begun = 0.0
+        self._to_keep = 0  # ticks until what was typed is written
         self._looking = False
         self._seen: Controller | None = None
         self._offered: Controller | None = None
@@ -140,6 +142,8 @@ class Commissioning(QObject):
         if self.busy:
             self._show()
             return
+        if self._to_keep:
+            self.keep(self.record)
         controller = self.controller
         model = controller.model.name if controller.model is not None else self._session.document.setup.model
         identity = controller.identity
@@ -167,6 +171,9 @@ class Commissioning(QObject):
             self._meet()
         self._watch(tuple(f"{name}.{self.record.axis.lower()}" for name in LIVE) if self.controller.model else ())
         self._read()
+        if self._to_keep == 1:
+            self.keep(self.record)
+        self._to_keep = max(self._to_keep - 1, 0)
         self._show()
 
     # ---- what came of something
@@ -178,7 +185,7 @@ class Commissioning(QObject):
 
     def keep(self, record: Record) -> None:
         """The record as it is now, on disk too."""
-        self.record = record
+        self.record, self._to_keep = record, 0
         if complaint := keep(record, self.folder):
             self.said.emit(complaint)
         self._show()
@@ -254,8 +261,11 @@ class Commissioning(QObject):
         self._begun = self.controller.clock()
 
     def _typed(self, name: str, text: str) -> None:
+        """Kept on disk once the person pauses: a disk may be slow."""
         self.note = ""
-        self.keep(self.record.with_text(self.step.key, name, text))
+        self.record = self.record.with_text(self.step.key, name, text)
+        self._to_keep = PAUSE_TICKS
+        self._show()
 
     def _choose_sine(self, on: bool) -> None:
         if not self.busy:
@@ -288,6 +298,8 @@ class Commissioning(QObject):
         """The window was closed: what is under way ends, and everything is put back."""
         self._cancel()
         self._forget()
+        if self._to_keep:
+            self.keep(self.record)
 
     def _show(self) -> None:
         from app.commissioning_pages import Now, page_of

@@ -15,9 +15,10 @@ import pytest
 from codegen.twoletter.fixed import ONE, scaled
 from device.api import Job, Kind, LinkError, NotAllowed
 from device.commissioning import moves
-from device.commissioning.judge import Moved, judge_phases, judge_polarity, judge_zero
+from device.commissioning.judge import Moved, judge_phases, judge_polarity, judge_switches, judge_zero
 from device.commissioning.moves import Phases, Trial
 from device.commissioning.record import Verdict
+from device.commissioning.seen import NOTHING, Switches
 from device.simulator.plant import Drive, Enable
 from device.tasks import Priority
 from device.tuning.guards import left_behind
@@ -150,6 +151,32 @@ def test_limits_are_set_read_back_and_the_motor_is_off(tmp_path: Path) -> None:
     assert machine.carry_out(moves.set_switches(machine.controller, "X", 1, -1))
     assert tuple(machine.simulation.unit.state.switches[:2]) == (1, -1)
     assert machine.carry_out(moves.burn(machine.controller, "X")).accepted
+
+
+@pytest.mark.parametrize(
+    ("plant", "words"),
+    [({}, "Seen changing"), ({"limits_swapped": True}, "swapped"), ({"home_stuck": True}, "home input did not change")],
+)
+def test_switches_tripped_by_hand(plant: dict[str, Any], words: str) -> None:
+    machine = Machine(plant=bearing(**plant))
+    seen = Switches()
+
+    def look() -> Switches:
+        levels = machine.carry_out(moves.look_at_switches(machine.controller, "X"))
+        assert levels is not None
+        return seen.with_levels(levels)
+
+    seen = look()
+    for signal in ("fls_x", "rls_x", "home_x"):
+        for level in (0, 1):
+            machine.simulation.stimulus(signal, level)
+            seen = look()
+    if seen.asked:
+        seen = seen.answered(NOTHING)
+    finding = judge_switches(seen, {"forward": 0, "reverse": 0, "home": 0})
+    assert words in finding.sentence
+    assert (finding.verdict is Verdict.PASSED) == (not plant)
+    assert machine.furthest == 0
 
 
 CYCLE = Fraction("1333.333")  # dmc-1412-1414.txt l.727: 4000 counts, three pole pairs

@@ -90,18 +90,25 @@ class Person:
         found = self.desk.record.of(key)
         return found.verdict, found.sentence
 
-    def push(self, counts: int, times: int = 10) -> None:
-        """The axis is moved by hand, in strokes."""
+    def push(self, counts: int, times: int = 5) -> None:
+        """The axis is moved by hand, in strokes, each as long as a reading takes."""
         for _ in range(times):
+            seen = self.desk.turned
             self.stage.rig.simulation.stimulus("position_x", counts / times)
-            self.stage.go(4)
-        self.stage.go(10)
+            for _ in range(20):
+                self.stage.go(1)
+                if self.desk.turned is not seen:
+                    break
 
     def trip(self, signal: str) -> None:
         """A switch is tripped by hand and let go."""
         for level in (0, 1):
+            before = self.desk.switches
             self.stage.rig.simulation.stimulus(signal, level)
-            self.stage.go(20)
+            for _ in range(20):
+                self.stage.go(1)
+                if self.desk.switches is not before:
+                    break
 
     # ---- the steps
 
@@ -118,7 +125,7 @@ class Person:
 
     def encoder(self, counts: int = 5000, distance: str = "5") -> None:
         self.press("begin_encoder")
-        self.stage.go(10)
+        self.stage.until(lambda: self.window.page.acts["encoder"].isEnabled())  # where it is has been read
         self.push(counts)
         self.type("distance", distance)
         self.press("encoder")
