@@ -22,6 +22,11 @@ AHEAD = 32  # bytes that may wait in the operating system
 PROMPT_QUIET_S = 0.06  # text without a line end that stands this long may be a question
 LAST_S = 0.3  # for the stop of what moves by hand, when the line is closed
 SILENCES = 3  # unanswered exchanges in a row that mean "does not answer"
+SILENT = "The controller does not answer."
+NOISY = (
+    "The controller does not answer, but something comes over the line: "
+    "is another device plugged in, or has the speed changed?"
+)
 PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")  # travels with a command
 ANSWER = Answer(Kind.ACCEPTED)
 
@@ -70,6 +75,7 @@ class Link:
         self._last_byte = 0.0
         self._told_rest = ""
         self._silences = 0
+        self._noise = False  # something came that was no answer
         self._next_open = 0.0
         self._stop: Callable[[bool], Steps[bool]] | None = None
         self.last_words: Callable[[], bytes] = lambda: b""  # what ends a motion by hand when the line is closed
@@ -221,7 +227,7 @@ class Link:
         data = self.transport.read(0.002 if busy else 0.005)
         now = self._clock()
         if data:
-            self._last_byte = now
+            self._last_byte, self._noise = now, True
             self.wire.feed(data)
             self._watch_bytes(data)
             step = self._current.step if self._current is not None else None
@@ -265,12 +271,14 @@ class Link:
                 return
             answer = self.wire.give_up()
         self._silences = 0 if answer.kind is not Kind.SILENT else self._silences + 1
+        self._noise &= self._silences > 1  # half an answer, cut off by a pulled cable, is none
         self.sure = answer.kind in (Kind.VALUES, Kind.ACCEPTED, Kind.REFUSED) and answer.certain
         self._current = None
         self._advance(task, answer)
         if self._silences >= SILENCES and not self.door.question:
             self._silences = 0
-            self._owner.lost("The controller does not answer.", refused=False)
+            self._owner.lost(NOISY if self._noise else SILENT, refused=False)
+            self._noise = False
 
     def _seems_refused(self, step: Send) -> bool:
         """A `?` came and nothing after it; only a fence can tell whether it was the answer."""
