@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from tests.benchmarks.curves import drawing_rates
 from tests.benchmarks.editing import many_edits, rename, rescale
 from tests.benchmarks.figure import Figure
 from tests.benchmarks.line import download_shares
@@ -33,7 +34,7 @@ SINGLE: tuple[Callable[[], Figure], ...] = (
     rescale,
 )
 
-SEVERAL: tuple[Callable[[], list[Figure]], ...] = (download_shares, start_figures)
+SEVERAL: tuple[Callable[[], list[Figure]], ...] = (download_shares, start_figures, drawing_rates)
 
 
 def measured() -> Iterator[Figure]:

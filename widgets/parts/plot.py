@@ -10,8 +10,19 @@ from pathlib import Path
 from typing import Any
 
 import pyqtgraph
-from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QAction, QContextMenuEvent, QFontMetrics, QGuiApplication, QKeyEvent, QMouseEvent, QPixmap
+from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
+from PySide6.QtGui import (
+    QAction,
+    QColor,
+    QContextMenuEvent,
+    QFontMetrics,
+    QGuiApplication,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPen,
+    QPixmap,
+)
 from PySide6.QtWidgets import QMenu, QWidget
 
 from widgets.parts.files import PICTURES, ask_save
@@ -20,7 +31,48 @@ from widgets.parts.question import Question
 
 STEP = 0.1  # of the width, for an arrow key
 ZOOM = 0.8  # for the plus key
-GRID = 0.22
+GRID = 0.5  # how much of the line colour a grid line has; the rest is the ground's
+
+
+class Grid(pyqtgraph.GraphicsObject):  # type: ignore[misc]
+    """Lines at the large ticks, below everything; pyqtgraph's own see-through ones take longer than the curves."""
+
+    def __init__(self, plot: Plot) -> None:
+        super().__init__()
+        self._plot = plot
+        self.setZValue(-1000)
+        self.colour = QColor()
+        self._asked: tuple[object, ...] = ()
+        self._lines: list[QLineF] = []
+
+    def boundingRect(self) -> QRectF:
+        return QRectF(self._plot.getViewBox().viewRect())
+
+    def viewRangeChanged(self) -> None:
+        self.prepareGeometryChange()
+        super().viewRangeChanged()
+
+    def paint(self, painter: QPainter, *_: object) -> None:
+        box = self._plot.getViewBox()
+        (left, right), (low, high) = box.viewRange()
+        pen = QPen(self.colour, 0)
+        pen.setCosmetic(True)
+        painter.setPen(pen)
+        asked = (left, right, low, high, box.width(), box.height())
+        if asked != self._asked:
+            self._asked = asked
+            across = _large_ticks(self._plot.getAxis("bottom"), left, right, box.width())
+            upward = _large_ticks(self._plot.getAxis("left"), low, high, box.height())
+            self._lines = [QLineF(x, low, x, high) for x in across] + [QLineF(left, y, right, y) for y in upward]
+        painter.drawLines(self._lines)
+
+
+def _large_ticks(axis: Any, low: float, high: float, size: float) -> list[float]:
+    """Where an axis writes its numbers."""
+    if not high > low or size < 1:
+        return []
+    levels = axis.tickValues(low, high, size)
+    return [float(place) for _, places in levels[:2] for place in places] if len(levels) > 1 else []
 
 
 class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
@@ -36,7 +88,8 @@ class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
         self.setMenuEnabled(False)
         self.hideButtons()
         self.setAspectLocked(equal)
-        self.showGrid(x=True, y=True, alpha=GRID)
+        self.grid = Grid(self)
+        self.addItem(self.grid, ignoreBounds=True)
         self.getPlotItem().getViewBox().sigRangeChangedManually.connect(self._by_hand)
         self.actions_: dict[str, QAction] = {}
         for words, call in (("Copy picture", self.copy), ("Save picture…", self.save), ("Fit", self.fit)):
@@ -48,7 +101,12 @@ class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
     def dress(self) -> None:
         """Takes the colours and fonts of the theme as it is now."""
         now = look()
-        self.setBackground(now.colour("surface"))
+        ground, line = now.colour("surface"), now.colour("line")
+        self.setBackground(ground)
+        self.grid.colour = QColor(*(
+            round(one + GRID * (other - one))
+            for one, other in zip(ground.getRgb()[:3], line.getRgb()[:3], strict=True)  # type: ignore[misc,arg-type]
+        ))  # fmt: skip
         for side in ("left", "bottom"):
             axis = self.getAxis(side)
             axis.setPen(now.colour("line"))

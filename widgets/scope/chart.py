@@ -66,7 +66,8 @@ class Strip(Plot):
             self.removeItem(self.items.pop())
             self._pens.pop()
         while len(self.items) < len(lines):
-            self.items.append(self.plot())
+            self.items.append(pyqtgraph.PlotCurveItem())
+            self.addItem(self.items[-1])
             self._pens.append(())
         for place, (item, line) in enumerate(zip(self.items, lines, strict=True)):
             smooth = len(line.x) <= FEW
@@ -75,7 +76,7 @@ class Strip(Plot):
                 self._pens[place] = looks
                 item.setPen(_pen(line, smooth))
                 item.setZValue(-1 if line.faded else 0)
-            item.setData(line.x, line.y, antialias=smooth, skipFiniteCheck=True)
+            item.setData(line.x, line.y, antialias=smooth, skipFiniteCheck=True, connect="all")
 
 
 def _pen(line: Line, smooth: bool) -> Any:
@@ -105,6 +106,7 @@ class Chart(QWidget):
         self._mark: tuple[float, float] | None = None
         self._shape: tuple[object, ...] = ()
         self._legends: dict[str, QLabel] = {}
+        self._named: dict[str, tuple[object, ...]] = {}
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(2)
@@ -139,7 +141,7 @@ class Chart(QWidget):
             self._column.removeWidget(strip)
             strip.hide()
             strip.deleteLater()
-        self.strips, self._lines, self._marks, self._legends = {}, {}, {}, {}
+        self.strips, self._lines, self._marks, self._legends, self._named = {}, {}, {}, {}, {}
         first: Strip | None = None
         for number, group in enumerate(groups):
             strip = self.strips[group] = Strip(self, f"Curves of {group.lower()}" if group else "Curves", equal)
@@ -161,6 +163,10 @@ class Chart(QWidget):
     def _name(self, group: str, lines: Sequence[Line], bottom: str) -> None:
         """Left: what is shown, with its unit; above the curves their names in their colours."""
         strip = self.strips[group]
+        key = (bottom, *((line.label, line.unit, line.colour.name(), line.dashed, line.faded) for line in lines))
+        if key == self._named.get(group):
+            return
+        self._named[group] = key
         units = list(dict.fromkeys(line.unit for line in lines if line.unit))
         last = strip is list(self.strips.values())[-1]
         words = f"{group} ({', '.join(units)})" if units and group else group or ", ".join(units)
