@@ -1,4 +1,4 @@
-"""A studio without windows that tunes an axis until it is killed: `python -m tests.device.tuning.life ADDRESS FOLDER N`."""
+"""A studio without windows that tunes until it is killed: `python -m tests.device.tuning.life ADDRESS FOLDER N`."""
 
 from __future__ import annotations
 
