@@ -89,8 +89,8 @@ def _encoder(now: Now) -> Parts:
     told = now.turned is not None and seen.first is not None
     in_units = f"{shown(seen.moved, now.axis)} {now.axis.symbol}" if now.axis.is_set_up else "–"
     readings = (
-        Reading("Position", f"{now.counts('position')} counts"),
-        Reading("Moved", f"{seen.moved} counts" if told else "–"),
+        Reading("Position, counts", now.counts("position")),
+        Reading("Moved, counts", str(seen.moved) if told else "–"),
         Reading("By the setup", in_units if told else "–"),
         Reading("Lowest, highest", f"{seen.low}, {seen.high}" if told else "–"),
     )
@@ -165,15 +165,15 @@ def _zero(now: Now) -> Parts:
 def _going(now: Now) -> tuple[Reading, ...]:
     return (
         Reading("Motor", now.motor, "warning" if now.motor == "on" else ""),
-        Reading("Position", f"{now.counts('position')} counts"),
-        Reading("Error", f"{now.counts('error')} counts"),
-        Reading("Motor command", _volts(now)),
+        Reading("Position, counts", now.counts("position")),
+        Reading("Error, counts", now.counts("error")),
+        Reading("Motor command, V", _volts(now)),
     )
 
 
 def _volts(now: Now) -> str:
     value = now.live.get("torque", math.nan)
-    return f"{value:.2f} V" if math.isfinite(value) else "–"
+    return f"{value:.2f}" if math.isfinite(value) else "–"
 
 
 def _polarity(now: Now) -> Parts:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -27,6 +27,7 @@ from widgets.parts.kind import KindFrame
 from widgets.parts.stop_button import StopButton
 
 TITLE = "Bring an axis to life"
+ROOM = 720  # px: four readings beside each other
 
 
 class CommissioningWindow(QDialog):
@@ -146,6 +147,7 @@ class CommissioningWindow(QDialog):
         head.addLayout(names, 1)
         head.addWidget(self.stop)
         self._area.setWidgetResizable(True)
+        self._area.setMinimumWidth(ROOM)
         self._area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._area.setFrameShape(QFrame.Shape.NoFrame)
         self._area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -169,4 +171,4 @@ class CommissioningWindow(QDialog):
         column.addLayout(head)
         column.addWidget(self.frame, 1)
         column.addLayout(foot)
-        self.resize(QSize(1120, 870).boundedTo(self.screen().availableSize()))
+        self.resize(1120, min(870, self.screen().availableSize().height()))
