@@ -10,6 +10,7 @@ from typing import Any
 
 from codegen import read
 from codegen.by_hand import Arc, Line, OneAxis
+from codegen.conversion import ACCELERATION_STEP, SPEED_STEP
 from codegen.fields import AXES, Dimension, fields_of
 from codegen.numbers import parse_number, plain
 from codegen.points import Point, counts_of
@@ -17,7 +18,6 @@ from codegen.setup import Setup
 from device import jog
 
 RAMP_S = Fraction(1, 4)  # to the speed of a point or a stick
-LEAST_RAMP = 1024  # counts/s²; AC and DC take no less
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def pace_at(axis: str, speed: str, setup: Setup) -> Pace | str:
         return f"Axis {axis}: {speed} is above its top speed, {plain(top)} {setup.unit_text(Dimension.SPEED, axis)}."
     least, most = setup.bounds(Dimension.ACCELERATION, axis)
     ramp = setup.counts(Dimension.ACCELERATION, axis, min(max(number / RAMP_S, least), most))
-    ramp = max(ramp, LEAST_RAMP)
+    ramp = max(ramp, ACCELERATION_STEP)
     return Pace(setup.counts(Dimension.SPEED, axis, number), ramp, ramp)
 
 
@@ -131,13 +131,15 @@ def _along(item: Line | Arc, counts_per_unit: float, setup: Setup) -> tuple[int,
     """VS, VA and VD for a path with so many counts in a unit of its length."""
     base = float(setup.axis(item.axes[0]).scale)
     made = []
-    for dimension, text in (
-        (Dimension.SPEED, item.speed),
-        (Dimension.ACCELERATION, item.acceleration),
-        (Dimension.ACCELERATION, item.deceleration),
+    for dimension, text, step in (
+        (Dimension.SPEED, item.speed, SPEED_STEP),
+        (Dimension.ACCELERATION, item.acceleration, ACCELERATION_STEP),
+        (Dimension.ACCELERATION, item.deceleration, ACCELERATION_STEP),
     ):
         factor = float(setup.factor(dimension, item.axes[0])) / base  # a sample that is no millisecond changes it
-        made.append(round(float(_number(text)) * factor * counts_per_unit))
+        steps = float(_number(text)) * factor * counts_per_unit / step
+        # a speed never above what was asked for, a ramp the nearest one, as the fields say
+        made.append(step * (math.floor(steps + 1e-6) if dimension is Dimension.SPEED else max(1, round(steps))))
     return made[0], made[1], made[2]
 
 

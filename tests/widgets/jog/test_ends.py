@@ -78,6 +78,7 @@ def test_lines_and_arcs_show_their_ends_in_the_view_from_above(stage: Stage) -> 
     assert line is not None
     for axis, text in (("X", "3"), ("Y", "-60")):
         typed(line, "distances", text, axis)
+    stage.studio.window.activateWindow()
     line.go.setFocus()
     stage.go(3)
     assert line.ends.text() == (
@@ -88,6 +89,8 @@ def test_lines_and_arcs_show_their_ends_in_the_view_from_above(stage: Stage) -> 
     panel.buttons[2].click()
     arc = panel.arc
     assert arc is not None
+    typed(arc, "acceleration", "10")
+    assert arc.plan is not None and "VA 10240" in arc.plan.commands  # the nearest multiple of 1024, as the field says
     typed(arc, "radius", "4")
     typed(arc, "sweep", "180")
     stage.go(3)
