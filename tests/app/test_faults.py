@@ -56,6 +56,8 @@ class Bench:
         live(0.1)
         self.studio.connection.open(str(self.port), self.line)
         self.ready()
+        controller = self.studio.connection.controller
+        until(lambda: controller.last().has("position.x"), "the first reading")
 
     def plug(self, model: str, eeprom: str = "machine.json", **more: object) -> SimulatorProcess:
         """Another process behind the same name; what was there before is gone."""
