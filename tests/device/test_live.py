@@ -102,7 +102,7 @@ def test_while_nothing_runs_reading_takes_most_of_the_line(baud: int) -> None:
 def test_all_of_the_line_where_it_is_asked_for(baud: int) -> None:
     bench = running(Bench("ssc4", baud=baud).ready())
     bench.controller.hurry(True)
-    used = sum(travelled(bench, count(2, 10)))
+    used = sum(travelled(bench, count(5, 20)))
     record(f"share of the line at {baud} when asked to hurry", "pytest tests/device/test_live.py", None, used, "of 1")
     print(f"{baud} baud: {100 * used:.1f} % of the line")
     assert used >= 0.9
