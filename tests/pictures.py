@@ -154,6 +154,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     """A rounded rectangle as the X-Y view saw it."""
     import dataclasses as dc
 
+    from tests.bar_pictures import bar_scenes
     from tests.panel_pictures import commissioning_scenes, doctor_scenes, event_scenes, replay_scenes
 
     studio, document = stage.studio, stage.studio.session.document
@@ -168,6 +169,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.until(lambda: rig.simulation.state()["axes"]["Y"]["commanded"] > 7600)
     yield "panel-x-y-view", studio.window
     yield from _jog(stage)
+    yield from bar_scenes()
     yield from _operator(stage)
     yield from _values(stage)
     yield from event_scenes(stage)
