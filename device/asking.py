@@ -15,6 +15,7 @@ from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse
 from device.wire import FAULT
 
+UNAWAITED = re.compile("[:?]*" + FAULT.pattern)  # an error behind nothing but prompts and refusals
 MAY_ASK = re.compile(r"(?m)(?:^|;)[ \t]*(?:I[ \t]*N|C[ \t]*I)")  # a text without this asks nothing and needs no parsing
 AUTOMATIC = ("LIMSWI", "POSERR", "ININT", "MCTIME", "CMDERR", "COMINT", "AUTO")
 
@@ -154,16 +155,17 @@ def parted(line: str, listing: Listing | None) -> tuple[str, int, str]:
     """A line as the text before an error, the error's line and its text; -1 without an error.
 
     The text of a question has no line end, so an error may stand right behind it; it is told apart where the listing
-    holds just that text in just that line. Prompts that nobody waited for, as after a stop, may stand before it.
+    holds just that text in just that line. Prompts and refusals that nobody waited for, as after a stop, may stand
+    before it.
     """
     if listing is not None:
         for found in FAULT.finditer(line):
             number, text = int(found.group(1)), line[found.end() :]
             if listing.holds(number, text):
-                return line[: found.start()].rstrip(":"), number, text
-    bare = line.lstrip(":")
-    whole = FAULT.match(bare)
-    return ("", int(whole.group(1)), bare[whole.end() :]) if whole is not None else (line, -1, "")
+                before = line[: found.start()].rstrip(":")
+                return before if before.strip(":?") else "", number, text
+    whole = UNAWAITED.match(line)
+    return ("", int(whole.group(1)), line[whole.end() :]) if whole is not None else (line, -1, "")
 
 
 def _port_two(statement: nodes.Command) -> bool:

@@ -57,6 +57,8 @@ def test_the_error_that_a_stop_causes_in_a_question_is_told_as_an_error(
         ('LENGTH??005 IN "LENGTH?",L', ("LENGTH?", 5, 'IN "LENGTH?",L')),
         ("?008 IN L", ("", 8, "IN L")),
         (":?007 QQ 5", ("", 7, "QQ 5")),  # behind a prompt that a stop left; the line is none of the listing
+        ("::???007 QQ 5", ("", 7, "QQ 5")),  # and behind refusals
+        ("::???008 IN L", ("", 8, "IN L")),
         ("READY?", ("READY?", -1, "")),
         ("PART ?012 OF 20", ("PART ?012 OF 20", -1, "")),  # the program's own words: line 12 is another
     ],
