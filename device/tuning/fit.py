@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 
 import numpy
@@ -153,14 +153,21 @@ def solve(data: Windows, shape: AxisPlant, rubbing: bool) -> Fit:
 Values = NDArray[numpy.float64]
 
 
-def refine(
-    data: Windows, start: Values, shape: Callable[[Values], AxisPlant], rubbing: bool, low: Values, high: Values
-) -> tuple[Values, Fit, Vector]:
-    """Levenberg's method over what is not linear; the last is the curvature (for the spread of the values)."""
+def refining(
+    data: Windows,
+    start: Values,
+    shape: Callable[[Values], AxisPlant],
+    rubbing: bool,
+    low: Values,
+    high: Values,
+    done: float,
+) -> Generator[float, None, tuple[Values, Fit, Vector]]:
+    """Levenberg's method over what is not linear; yields `done` each round, the last result is the curvature."""
     values, damping = numpy.clip(start, low, high), 1e-2
     best = solve(data, shape(values), rubbing)
     curvature = numpy.eye(len(values))
     for _ in range(ROUNDS):
+        yield done
         jacobian = numpy.empty((len(best.residual), len(values)))
         for n in range(len(values)):
             step = 1e-4 * max(1e-2, abs(values[n]))

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy
 
 from device.tuning.excite import NotIdentified
-from device.tuning.fit import Fit, Values, Windows, refine, solve, windows
+from device.tuning.fit import Fit, Values, Windows, refining, solve, windows
 from device.tuning.plant import AxisPlant, Resonance
 from device.tuning.recording import Recording, Samples, every_sample
 
@@ -20,6 +20,8 @@ BETTER = 1.03  # how much smaller the residual must be for a model with Coulomb 
 SEEN = 40.0  # logarithm of the likelihood (twice) from which a resonance is believed
 SHOWS = 1.015  # and how much smaller it must leave the residual
 EXPECTED = 1.02  # residual over that of counting alone, below which there is nothing left to explain
+AMISS = 1.2  # residual over that of counting alone, above which a model without friction is not good enough
+WEAK = 0.05  # one sigma of the gain, as a part, above which a second excitation is worth its time
 FEWEST = 200  # samples of motion
 HARDLY = 6.0  # counts of motion
 LOW_HZ, HIGH_HZ, SCANNED = 20.0, 420.0, 26
@@ -49,6 +51,14 @@ class Found:
     values: Values
     fit: Fit
     curvature: Values
+
+    @property
+    def repeated(self) -> float:
+        """How much larger deviations are than for white noise: the residual's samples repeat each other."""
+        residual = self.fit.residual
+        alike = float(residual[1:] @ residual[:-1]) / (self.fit.cost or 1.0)
+        alike = min(0.98, max(0.0, alike))
+        return math.sqrt((1.0 + alike) / (1.0 - alike))
 
     @property
     def left(self) -> float:
@@ -84,9 +94,9 @@ def best_rigid(data: Windows, rubbing: bool, done: float) -> Generator[float, No
 
     found: list[Found] = []
     for late in TRIED:
-        values, fit, curvature = refine(data, numpy.array([0.1, float(late)]), shape, rubbing, *bounds(2))
+        start = numpy.array([0.1, float(late)])
+        values, fit, curvature = yield from refining(data, start, shape, rubbing, *bounds(2), done)
         found.append(Found(data, rubbing, shape, values, fit, curvature))
-        yield done
     return min(found, key=lambda one: one.fit.cost)
 
 
@@ -105,9 +115,9 @@ def best_springy(base: Found, on_load: bool, done: float) -> Generator[float, No
             for ratio in (1.0,) if on_load else (0.3, 1.5):
                 values = numpy.array([base.values[0], late, math.log(hertz), math.log(0.04), math.log(ratio)])[:places]
                 starts.append((solve(data, shape(values), rubbing).cost, values))
-        yield done
+            yield done
     starts.sort(key=lambda one: one[0])
-    values, fit, curvature = refine(data, starts[0][1], shape, rubbing, *bounds(places))
+    values, fit, curvature = yield from refining(data, starts[0][1], shape, rubbing, *bounds(places), done + 0.1)
     return Found(data, rubbing, shape, values, fit, curvature)
 
 
@@ -123,7 +133,7 @@ def believable(found: Found, base: Found) -> bool:
 
 def deviations(found: Found) -> Values:
     """One sigma of the values that were searched."""
-    covariance = numpy.linalg.pinv(found.curvature) * found.left**2
+    covariance = numpy.linalg.pinv(found.curvature) * (found.left * found.repeated) ** 2
     result: Values = numpy.sqrt(numpy.maximum(0.0, numpy.diag(covariance)))
     return result
 
@@ -131,7 +141,7 @@ def deviations(found: Found) -> Values:
 def sigmas(found: Found) -> dict[str, float]:
     """One sigma of every number of the plant: its own, and what the searched values pass on."""
     plant, spread = found.fit.plant, deviations(found)
-    variances = [value**2 for value in found.fit.spread] + [0.0]
+    variances = [(value * found.repeated) ** 2 for value in found.fit.spread] + [0.0]
     for n, width in enumerate(spread):
         near = found.values.copy()
         near[n] += 1e-3
@@ -185,6 +195,11 @@ def notes(found: Found, sigma: dict[str, float]) -> tuple[str, ...]:
         said.append("Viscous friction could not be told: the excitation is too short for it.")
     if plant.velocity_mode:
         said.append("The drive closes a velocity loop of its own: inertia shows only as its lag.")
+    if sigma["gain"] > WEAK * plant.gain:
+        said.append(
+            f"The inertia is only known within {100.0 * sigma['gain'] / plant.gain:.0f} %: allow more travel, or "
+            "excite again with the gains that are found now."
+        )
     if found.left > 3.0 * COUNTING:
         said.append(
             f"{found.left:.1f} counts of the motion remain unexplained: play, cogging or a second resonance are not "
@@ -264,7 +279,8 @@ def concluded(candidates: list[Found], moved: float) -> Estimate | NotIdentified
     best = candidates[-1]
     if len(candidates) > 1:
         smooth, rubbing = sorted(candidates, key=lambda one: one.rubbing)
-        best = rubbing if rubs(rubbing) and smooth.left > BETTER * rubbing.left else smooth
+        better = smooth.left > BETTER * rubbing.left
+        best = rubbing if better and (rubs(rubbing) or smooth.left > AMISS * COUNTING) else smooth
     sigma = sigmas(best)
     weak = too_weak(best, sigma, moved)
     if weak:
