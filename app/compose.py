@@ -225,6 +225,7 @@ class Studio(QObject):
         self.start.exit_wanted.connect(self._exit)
         self.start.doctor_wanted.connect(self.doctor.show)
         self.doctor.connect_wanted.connect(self.start.connect_at)
+        self.doctor.help_wanted.connect(self.desk.show_help)
         self.run.uploaded.connect(self.desk.show_upload)
         self.run.show_problem.connect(self.program.reveal_step)
         self.run.downloaded.connect(self._downloaded)

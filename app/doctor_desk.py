@@ -32,6 +32,7 @@ class DoctorDesk(QObject):
     """Owns the window; one examination at a time."""
 
     connect_wanted = Signal(str, int)  # port, baud
+    help_wanted = Signal(str)  # page
 
     def __init__(
         self,
@@ -59,6 +60,7 @@ class DoctorDesk(QObject):
             self.window.examine_wanted.connect(self.examine)
             self.window.cancel_wanted.connect(self.cancel)
             self.window.connect_wanted.connect(self._connect)
+            self.window.help_wanted.connect(self.help_wanted)
         if self.job is None:
             self.window.show_ports([(each.device, each.words) for each in self._ports()], self._chosen())
         self.window.show()
@@ -93,8 +95,11 @@ class DoctorDesk(QObject):
             window.show_busy(job.phase, job.fraction)
             return
         self.job = None
+        from widgets.connect.doctor import PAGE, TROUBLE
+
         found = job.future.result()
-        window.show_diagnosis(found.sentence, found.steps, found.baud, found.fine)
+        page = TROUBLE if found.of_the_line else PAGE
+        window.show_diagnosis(found.sentence, found.steps, found.baud, found.fine, page)
 
     def _connect(self, device: str, baud: int) -> None:
         assert self.window is not None

@@ -1,6 +1,7 @@
 """What is wrong with a connection, in words: listens first, sends only a carriage return and control-R control-V.
 
-Ports, speeds and the handshake are tried one after the other; every diagnosis is one sentence and the next steps.
+Where nothing comes back at any speed it also calls the eight addresses of a daisy chain (`%0` to `%7`). Every diagnosis
+is one sentence and the next steps.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from enum import StrEnum
 from codegen.models import Model
 from codegen.rates import RATES, setting_words
 from device.doctor_ports import group_of, holders
-from device.door import REVISION
+from device.door import REVISION, choose
 from device.download import Job
 from device.find import ports
 from device.identify import model_of
@@ -30,6 +31,7 @@ PROMPT = re.compile(rb"(?:^|[\r\n:?])[:?]$")
 PLAIN = frozenset(range(0x20, 0x7F)) | frozenset(b"\r\n\t\x1a\x1e\x1f")
 FILL = b"\x00\x11\x13"
 SPEEDS = (9600, 19200, 38400, 4800, 1200, 300)
+ADDRESSES = 8  # of a daisy chain (dmc-1412-1414.txt l.1302)
 SHOWN = 40  # characters of a foreign answer
 STRAIGHT = "a straight-through cable (a null-modem cable does not work with the main port)"
 
@@ -43,6 +45,7 @@ class Trouble(StrEnum):
     PERMISSION = "no permission"
     BUSY = "busy"
     SILENT = "silence"
+    ADDRESSED = "another address was called"
     HELD = "not clear to send"
     ECHO = "own echo"
     SPEED = "another speed"
@@ -67,6 +70,12 @@ class Diagnosis:
     @property
     def fine(self) -> bool:
         return self.trouble is Trouble.NONE
+
+    @property
+    def of_the_line(self) -> bool:
+        """Whether something is wrong between the port and the controller, not with the port or this computer."""
+        line = (Trouble.SILENT, Trouble.HELD, Trouble.SPEED, Trouble.GARBAGE, Trouble.NOT_WIRED, Trouble.LOST)
+        return self.trouble in line
 
     @property
     def words(self) -> str:
@@ -158,7 +167,32 @@ class Doctor:
             return found
         if what is Answered.GARBAGE or judged(heard) is Answered.GARBAGE:
             return self._garbage()
-        return self._silent(ready)
+        return (None if came or heard else self._by_address()) or self._silent(ready)
+
+    def _by_address(self) -> Diagnosis | None:
+        """One that is not called by its number says nothing, not even a prompt (dmc-1412-1414.txt l.1304)."""
+        self._say("Calling the addresses of a daisy chain")
+        transport = self._open(self.address, self.line)
+        try:
+            for number in range(ADDRESSES):
+                transport.write(choose(number))
+                if judged(self._listen(transport, TRY_S, prompt=True)) is Answered.PROMPT:
+                    return self._called(number, self._who(transport, None))
+        finally:
+            transport.close()
+        return None
+
+    def _called(self, number: int, found: Diagnosis) -> Diagnosis:
+        return Diagnosis(
+            Trouble.ADDRESSED,
+            f"The controller at {self.address} has the address {number} and was silent because another one was called "
+            f"(% and a number); now it listens again.",
+            (
+                "Connect: it goes on listening until another address is called.",
+                "In a daisy chain every other controller is silent now; % and its number calls it.",
+            ),
+            *(self.line.baud, found.text, found.model),
+        )
 
     def _without_handshake(self) -> Diagnosis | None:
         """The same speed without RTS/CTS: whoever answers now is held by a line that is not there."""
@@ -335,7 +369,7 @@ class Doctor:
         if self.job.cancelled:
             raise Cancelled
         self._done += 1
-        self.job.show(phase, self._done, 4 + len(SPEEDS))
+        self.job.show(phase, self._done, 5 + len(SPEEDS))
 
     def _ask(self, transport: Transport, seconds: float) -> bytes:
         transport.write(b"\r")

@@ -8,13 +8,17 @@ from collections.abc import Callable, Iterator
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QTextBrowser
 
+from app.help_pages import Pages
 from app.search import Candidate
+from device.doctor import Diagnosis, Trouble
+from device.download import Job
 from device.simulator.process import SimulatorProcess
 from tests.device.test_latency import NO_PTY
 from tests.stage import Stage
 from widgets.connect.doctor import NO_PORT, DoctorWindow
+from widgets.help.topic import topic_of
 
 pytestmark = [NO_PTY, pytest.mark.paced]
 
@@ -99,3 +103,27 @@ def test_every_control_of_it_has_a_name_and_f1_its_page(qapp: QApplication) -> N
     for each in (window.ports, window.busy):
         assert each.accessibleName()
     window.close()
+
+
+def test_each_diagnosis_has_its_help(stage: Stage) -> None:
+    """By a button, and by F1; its page is there."""
+    desk = stage.studio.doctor
+    desk.show()
+    window = desk.window
+    assert window is not None
+
+    def told(trouble: Trouble) -> None:
+        desk.job = Job()
+        desk.job.future.set_result(Diagnosis(trouble, "A sentence."))
+        stage.go()
+
+    for trouble in Trouble:
+        told(trouble)
+        assert topic_of(window.examine) in Pages()
+        assert window.more.isVisible() is (trouble is not Trouble.NONE)
+    told(Trouble.SILENT)
+    assert topic_of(window.examine) == "Troubleshooting"
+    QTest.mouseClick(window.more, Qt.MouseButton.LeftButton)
+    stage.go()
+    assert stage.studio.desk.help is not None and stage.studio.desk.help.isVisible()
+    assert "The controller does not answer" in stage.studio.desk.help.findChild(QTextBrowser).toPlainText()

@@ -10,10 +10,13 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QTextBrowser
 
+from app.help_pages import Pages
+from device.events import What
 from tests.stage import Stage, make_studio
-from widgets.events.panel import EMPTY, NO_HIT
+from widgets.events.panel import EMPTY, HELP_PAGES, NO_HIT
+from widgets.help.topic import topic_of
 
 
 @pytest.fixture
@@ -116,3 +119,19 @@ def test_a_bundle_that_can_not_be_written_is_said(stage: Stage, tmp_path: Path) 
     stage.studio.at_machine.happened.save_bundle(tmp_path / "no" / "such" / "folder.zip")
     stage.until(lambda: said)
     assert said[0].startswith("The service bundle was not saved")
+
+
+def test_each_event_has_its_help(stage: Stage) -> None:
+    """By a button, and by F1 on its row; its page is there."""
+    panel = stage.studio.at_machine.event_list
+    assert set(HELP_PAGES) == set(What) and set(HELP_PAGES.values()) <= set(Pages())
+    assert not panel.more.isEnabled() and topic_of(panel.table) == "Events"
+    rig = stage.connect("machine", "ssc1")
+    rig.cut()
+    stage.until(lambda: "lost link" in words(stage))
+    panel.table.setCurrentCell(0, 0)
+    assert topic_of(panel.table) == "Troubleshooting"
+    QTest.mouseClick(panel.more, Qt.MouseButton.LeftButton)
+    stage.go()
+    assert stage.studio.desk.help is not None
+    assert "The controller does not answer" in stage.studio.desk.help.findChild(QTextBrowser).toPlainText()

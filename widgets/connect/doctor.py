@@ -22,6 +22,7 @@ from widgets.connect.rates import RATES
 NOTE = (
     "Only an empty line and a request for the version are sent; another kind of device may take even that for an order."
 )
+PAGE, TROUBLE = "Connecting", "Troubleshooting"  # of the help
 NO_PORT = "This computer has no serial port. Plug in the adapter of the controller."
 
 
@@ -31,21 +32,23 @@ class DoctorWindow(QDialog):
     examine_wanted = Signal(str)  # port
     cancel_wanted = Signal()
     connect_wanted = Signal(str, int)  # port, baud
+    help_wanted = Signal(str)  # page
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Examine the connection")
-        self.setProperty("helpPage", "Connecting")
+        self.setProperty("helpPage", PAGE)
         self.setModal(False)
         self.ports, self.examine, self.cancel = QComboBox(), QPushButton("Examine"), QPushButton("Cancel")
         self.busy, self.phase = QProgressBar(), QLabel()
         self.sentence, self.steps, self.switches = QLabel(), QLabel(), DipSwitches()
-        self.take, self.close_ = QPushButton(), QPushButton("Close")
+        self.take, self.close_, self.more = QPushButton(), QPushButton("Close"), QPushButton("More help")
         self._baud = 0
         self._lay_out()
         self.examine.clicked.connect(lambda: self.examine_wanted.emit(self.ports.currentData()))
         self.cancel.clicked.connect(self.cancel_wanted)
         self.take.clicked.connect(lambda: self.connect_wanted.emit(self.ports.currentData(), self._baud))
+        self.more.clicked.connect(lambda: self.help_wanted.emit(self.property("helpPage")))
         self.close_.clicked.connect(self.close)
         self.rejected.connect(self.cancel_wanted)
 
@@ -68,9 +71,13 @@ class DoctorWindow(QDialog):
             widget.setVisible(shown)
         self.ports.setEnabled(False)
 
-    def show_diagnosis(self, sentence: str, steps: Sequence[str], baud: int | None, fine: bool) -> None:
-        """What was found; `baud` is where the controller answers."""
+    def show_diagnosis(
+        self, sentence: str, steps: Sequence[str], baud: int | None, fine: bool, page: str = PAGE
+    ) -> None:
+        """What was found; `baud` is where the controller answers, `page` tells more."""
         self._clear(sentence)
+        self.setProperty("helpPage", page)
+        self.more.setVisible(not fine)
         self.steps.setText(
             "".join(f"<li>{_plain(step)}</li>" for step in steps).join(("<ol>", "</ol>")) if steps else ""
         )
@@ -91,7 +98,8 @@ class DoctorWindow(QDialog):
     def _clear(self, sentence: str) -> None:
         self.sentence.setText(sentence)
         self.sentence.setVisible(bool(sentence))
-        for widget in (self.busy, self.phase, self.cancel, self.steps, self.switches, self.take):
+        self.setProperty("helpPage", PAGE)
+        for widget in (self.busy, self.phase, self.cancel, self.steps, self.switches, self.take, self.more):
             widget.hide()
         self.examine.show()
         self.ports.setEnabled(True)
@@ -112,6 +120,7 @@ class DoctorWindow(QDialog):
         top.addWidget(self.examine)
         top.addWidget(self.cancel)
         foot = QHBoxLayout()
+        foot.addWidget(self.more)
         foot.addStretch(1)
         foot.addWidget(self.close_)
         foot.addWidget(self.take)

@@ -44,6 +44,12 @@ ICONS = {
     What.LOST: ("disconnect", "fault"), What.BACK: ("connect", "text"), What.STOP: ("stop", "stop"),
     What.DOWNLOAD: ("download", "text"), What.BURN: ("burn", "text"),
 }  # fmt: skip
+CODES, TROUBLE = "Error and stop codes", "Troubleshooting"
+HELP_PAGES = {
+    What.FAULT: CODES, What.LIMIT: CODES, What.STOPPED: CODES, What.PROGRAM: CODES, What.REFUSED: CODES,
+    What.RESET: TROUBLE, What.LOST: TROUBLE, What.BACK: "Connecting", What.STOP: "STOP",
+    What.DOWNLOAD: "Program window", What.BURN: "Program window",
+}  # fmt: skip
 ICON_COLUMN, WIDEST = 1, 300  # px of a column of text
 
 
@@ -53,6 +59,7 @@ class EventsPanel(Panel):
     title = "Events"
     bundle_wanted = Signal()
     line_wanted = Signal(int)  # a line of the program in the controller
+    help_wanted = Signal(str)  # page
 
     def __init__(
         self, parent: QWidget | None = None, local: Callable[[float], time.struct_time] = time.localtime
@@ -63,11 +70,13 @@ class EventsPanel(Panel):
         self._setup: Setup | None = None
         self._told: tuple[object, ...] = ()
         self.search, self.kind = QLineEdit(), QComboBox()
-        self.bundle, self.words_ = QPushButton("Service bundle…"), QLabel(EMPTY)
+        self.bundle, self.words_, self.more = QPushButton("Service bundle…"), QLabel(EMPTY), QPushButton("Help on it")
         self.table = QTableWidget(0, len(COLUMNS))
         self.rows: tuple[Event, ...] = ()
         self._lay_out()
         self.bundle.clicked.connect(self.bundle_wanted)
+        self.more.clicked.connect(lambda: self.help_wanted.emit(self.help_page()))
+        self.more.setEnabled(False)
         self.search.textChanged.connect(lambda _: self._fill())
         self.kind.currentIndexChanged.connect(lambda _: self._fill())
         self.table.cellDoubleClicked.connect(self._opened)
@@ -147,8 +156,14 @@ class EventsPanel(Panel):
             parts.append(f"line {event.line}")
         return ", ".join(parts)
 
+    def help_page(self) -> str:
+        """The page of the selected event."""
+        row = self.table.currentRow()
+        return HELP_PAGES[self.rows[row].what] if 0 <= row < len(self.rows) else self.title
+
     def _explain(self, row: int) -> None:
         """Cause and next step of the selected event, also where its columns are out of sight."""
+        self.more.setEnabled(0 <= row < len(self.rows))
         if 0 <= row < len(self.rows):
             event = self.rows[row]
             cause = f"Cause: {event.cause.removesuffix('.')}." if event.cause else ""
@@ -174,7 +189,9 @@ class EventsPanel(Panel):
             self.kind.addItem(str(what).capitalize(), what)
         head.addWidget(self.search, 1)
         head.addWidget(self.kind)
+        head.addWidget(self.more)
         head.addWidget(self.bundle)
+        self.more.setToolTip("The help page of the selected event (F1)")
         self.bundle.setToolTip(
             "Events, traffic, program, setup, back-up, versions and a picture of the window in one file"
         )
