@@ -72,6 +72,7 @@ class AtMachine:
         )  # fmt: skip
         self.pads.add(self.table)
         self.event_list.line_wanted.connect(studio.ear.reveal)
+        self.event_list.help_wanted.connect(studio.desk.show_help)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (
             self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
