@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import partial
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QPushButton, QSlider, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QPushButton, QSlider, QVBoxLayout, QWidget
 
 from codegen.fields import Dimension
 from codegen.numbers import number_problem, parse_number, plain
@@ -57,7 +57,7 @@ class SpeedRow(QWidget):
         self._speeds: Mapping[str, str] = {}
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.buttons = {name: QPushButton(name.capitalize()) for name in USUAL} if presets else {}
-        self.keep = QToolButton()
+        self.keep = QPushButton()
         self._lay_out(presets)
 
     def show_speed(self, text: str, top: float, unit: str) -> None:
@@ -128,8 +128,7 @@ class SpeedRow(QWidget):
         self.keep.setText("Keep…")
         self.keep.setAccessibleName("Keep this speed")
         self.keep.setToolTip("Keeps the present speed of this axis as slow, medium or fast.")
-        self.keep.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.keep.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.keep.setProperty("role", "segment")
         self.keep.setMenu(QMenu(self.keep))
         self.keep.menu().aboutToShow.connect(self._fill_menu)
         line.addWidget(self.keep)
