@@ -65,6 +65,7 @@ class AtMachine:
             connection, studio.session, tick, self.curves, data / "captures", clock, studio.window, studio
         )
         self.scope.said.connect(studio.desk.say)
+        self.scope.note = studio.recorder.note
         self.table = TeachPanel(clock=studio.now)
         self.teach = Teach(
             connection, studio.session, tick, self.table, self.plane, ask, studio.ear.homed_axes, studio.files.folder,
@@ -72,6 +73,7 @@ class AtMachine:
         )  # fmt: skip
         self.pads.add(self.table)
         self.event_list.line_wanted.connect(studio.ear.reveal)
+        self.operator.tap = lambda opener: studio.recorder.channel().tap(opener)
         self.event_list.help_wanted.connect(studio.desk.show_help)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (

@@ -56,7 +56,7 @@ class Scope(QObject):
         self._panel, self._folder, self._clock, self._window = panel, folder, clock, window
         self.job: CaptureJob | None = None
         self.roll: Roll | None = None
-        self.captured: Callable[[Capture], None] = lambda capture: None  # for the recorder
+        self.note: Callable[[str, dict[str, Any]], None] = lambda kind, what: None  # to the recorder
         self._watched: Controller | None = None
         self._drawn_at = 0.0
         self._read, self._placed = 0, False
@@ -110,7 +110,7 @@ class Scope(QObject):
         if capture is not None:
             name = self._keep(capture)
             self._body.add(capture)
-            self.captured(capture)
+            self.note("capture", _told(capture))
             words = (
                 f"{capture.count} values a channel" + ("" if capture.complete else ", a part") + f"; kept as {name}."
             )
@@ -122,7 +122,7 @@ class Scope(QObject):
 
     def look(self) -> None:
         """With each tick: how far a capture is, and what is new in the live roll."""
-        if self.job is not None and self._panel.isVisible():
+        if self.job is not None and self._panel.in_sight:
             job, now = self.job, self._clock()
             self._body.show_progress(job.phase, job.fraction, job.remaining_s)
             if now - self._drawn_at >= PARTLY_S:
@@ -132,7 +132,7 @@ class Scope(QObject):
                     self._read = part.count
                     self._body.show_partial(part)
         roll, controller = self.roll, self._connection.controller
-        if roll is not None and roll.take(controller.poller.ring) and self._panel.isVisible():
+        if roll is not None and roll.take(controller.poller.ring) and self._panel.in_sight:
             self._body.roll_on(self._clock())
 
     # -------------------------------------------------------------------- live
@@ -214,3 +214,15 @@ class Scope(QObject):
             return
         self._body.add(capture, path.name)
         self._body.show_result(f"{path.name}: {capture.count} values a channel.")
+
+
+def _told(capture: Capture) -> dict[str, Any]:
+    """What the recorder keeps of a capture."""
+    return {
+        "names": [channel.label for channel in capture.channels],
+        "interval_s": capture.interval_s,
+        "trigger": capture.trigger,
+        "trigger_text": capture.trigger_text,
+        "complete": capture.complete,
+        "values": capture.values,
+    }

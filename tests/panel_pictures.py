@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import time
 from collections.abc import Callable, Iterator
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
 from codegen.rates import setting_words
+from codegen.setup import Unit
 from device.api import Kind
 from tests.stage import Stage
 
@@ -125,3 +128,64 @@ def commissioning_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go()
     yield "commissioning-sine", sine.window
     sine.window.close()
+
+
+def scope_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """A move that was waited for, with cursors; its spectrum; two axes over each other; live."""
+    from device.capture import Channel
+    from device.curves import Derived
+
+    document = stage.studio.session.document
+    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit="500", reverse_limit="", forward_limit="")
+    setup = dc.replace(document.setup, model="ssc2", axes=(axis,) * 4)
+    stage.studio.session.set_document(dc.replace(document, setup=setup), "A table")
+    rig = stage.connect("simulator", "ssc2")
+    rig.type("SH", "SP 40000", "AC 512000", "DC 512000")
+    stage.studio.actions["scope"].trigger()
+    dock = stage.studio.window.docks["Scope"]
+    dock.resize(1180, 720)
+    stage.go()
+    body = stage.studio.at_machine.curves.body
+    assert body is not None
+    yield "scope-empty", dock
+    wanted = (Channel("position", "X"), Channel("commanded", "X"), Channel("torque", "X"), Channel("position", "Y"))
+    for slot, channel in zip(body.choices.slots, wanted, strict=True):
+        slot.what.setCurrentIndex(slot.what.findText(channel.label))
+    body.choices.derived[Derived.VELOCITY].setChecked(True)
+    body.choices.begin.setCurrentIndex(1)
+    stage.go()
+    for distance in ("2500,1500", "4000,2500"):
+        body.bar.capture.click()
+        stage.until(lambda: body.bar.words.text().startswith("Waiting"), 30)
+        stage.go(30)
+        rig.controller.ask(f"PR {distance};BG")
+        stage.until(lambda: "left" in body.bar.words.text() and body.shown is not None, 30)
+        stage.until(lambda: stage.studio.at_machine.scope.job is None, 100)
+        rig.type("DP 0,0")
+        stage.go(3)
+    body.kept.list.item(1).setCheckState(Qt.CheckState.Checked)
+    body.bar.cursors.setChecked(True)
+    stage.go(5)
+    yield "scope-capture", dock
+    body.side.setCurrentIndex(1)
+    stage.go()
+    yield "scope-captures", dock
+    body.side.setCurrentIndex(0)
+    for view, name in (("Spectrum", "spectrum"), ("X-Y", "x-y")):
+        body.bar.views.setCurrentText(view)
+        body.bar.upward.setCurrentText("Position Y")
+        stage.go(3)
+        yield f"scope-{name}", dock
+    body.bar.views.setCurrentText("Over time")
+    body.bar.live.click()
+    stage.go(30)
+    rig.controller.ask("PR -4000,-2500;BG")
+    stage.go(120)
+    yield "scope-live", dock
+    body.bar.live.click()
+    dock.setFloating(False)
+    stage.go()
+    dock.bring()
+    stage.go(3)
+    yield "scope-docked", stage.studio.window
+    dock.hide()

@@ -68,11 +68,15 @@ class Grid(pyqtgraph.GraphicsObject):  # type: ignore[misc]
 
 
 def _large_ticks(axis: Any, low: float, high: float, size: float) -> list[float]:
-    """Where an axis writes its numbers."""
+    """Where an axis has its large ticks."""
     if not high > low or size < 1:
         return []
-    levels = axis.tickValues(low, high, size)
-    return [float(place) for _, places in levels[:2] for place in places] if len(levels) > 1 else []
+    found: list[float] = []
+    for _, places in axis.tickValues(low, high, size):
+        found += map(float, places)
+        if len(found) > 2:  # few large ones do with the next smaller
+            break
+    return found
 
 
 class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]

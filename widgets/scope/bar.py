@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from device.curves import WINDOW_WORDS, Window
 from widgets.panel import set_text, show_role
 from widgets.parts.icons import icon
+from widgets.parts.look import look
 
 WORDY = 900  # px of width from which on all buttons say their names
 SPANS = {"10 s": 10.0, "30 s": 30.0, "2 min": 120.0, "10 min": 600.0, "1 h": 3600.0}
@@ -172,6 +173,7 @@ class Bar(QWidget):
             small.setToolTip(f"{words}: {tip[:1].lower()}{tip[1:]}")
             small.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             small.setProperty("role", "control")
+            small.setFixedWidth(look().space["control"] + 8)
         for switch in (self.live, self.cursors, self.sides_left, self.sides_right):
             switch.setCheckable(True)
         self.capture.setProperty("role", "primary")

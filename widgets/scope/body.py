@@ -72,6 +72,8 @@ class Body(QWidget):
         reason = self.choices.problem
         if controller.kind is Kind.OFFLINE or controller.state is not State.READY:
             reason = "Nothing is connected that could capture."
+        elif controller.kind is Kind.REPLAY:
+            reason = "A recording is played: nothing can be captured from it."
         elif not controller.control:
             reason = "This is Watch. Take Control first: a capture writes arrays in the controller."
         self.bar.allow(reason, controller.kind is not Kind.OFFLINE)
@@ -187,7 +189,7 @@ class Body(QWidget):
         self.bar.offer_sides(list(all_curves))
         across, upward = (all_curves[name] for name in self.bar.sides)
         name = f"{upward.label} over {across.label}"
-        self._drawn = []
+        self._drawn = [(each, self._line(each, capture.times, each.values)) for each in (across, upward)]
         lines = [Line(name, upward.unit, upward.label, self._colour(upward.channel), across.values, upward.values)]
         for other in self.kept.overlaid:
             there = {each.label: each for each in curves(other, self.choices.shown)}
@@ -245,7 +247,8 @@ class Body(QWidget):
                 top = 1 + int(np.argmax(line.y[1:]))
                 peak = (float(line.x[top]), float(line.y[top]))
             columns.append(Column(curve.label, curve.unit, line.colour, line.x, line.y, peak))
-        self.readings.show_columns(columns, cursors, self.chart.range if columns else (0.0, 1.0))
+        plane = self._roll is None and self.bar.view is View.PLANE
+        self.readings.show_columns(columns, cursors, (-math.inf, math.inf) if plane else self.chart.range)
         set_text(self.between, self._words(cursors, spectral))
 
     @staticmethod

@@ -10,7 +10,7 @@ import numpy as np
 import pyqtgraph
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPixmap
+from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPalette, QPixmap
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from widgets.parts.look import look
@@ -150,6 +150,7 @@ class Chart(QWidget):
             legend = self._legends[group] = QLabel(strip)
             legend.setTextFormat(Qt.TextFormat.RichText)
             legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            legend.setAutoFillBackground(True)
             self._column.addWidget(strip, 1)
             if first is None:
                 first = strip
@@ -183,6 +184,11 @@ class Chart(QWidget):
         if legend.text() != text:
             legend.setText(text)
             legend.setFont(look().small_font())
+            ground = look().colour("surface")
+            ground.setAlpha(200)
+            palette = legend.palette()
+            palette.setColor(QPalette.ColorRole.Window, ground)
+            legend.setPalette(palette)
             legend.adjustSize()
             legend.move(self._left_px + 12, 4)
             legend.raise_()

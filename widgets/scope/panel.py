@@ -33,6 +33,10 @@ class ScopePanel(Panel):
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
+        if self.in_sight:
+            self._build()
+
+    def _build(self) -> None:
         if self.body is None:
             from widgets.scope.body import Body
 
@@ -52,6 +56,7 @@ class ScopePanel(Panel):
             self._tell()
 
     def refresh(self, row: Row) -> None:
+        self._build()
         if self.body is not None and self.controller is not None:
             self._tell()
             self.body.refresh(self.controller)
