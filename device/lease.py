@@ -279,7 +279,8 @@ class Lease:
             nonce = next(self.exchange.nonces)
             data = line.replace('"xx"', f'"{nonce}"').encode() + b"\r"
             shapes = tuple(shape for _, shape in reads)
-            answer = yield Send(data, Frame(nonce, shapes), self.exchange.patience(len(data) + 24), refusal_s=0.04)
+            frame = Frame(nonce, shapes, before=1 if counts else 0)
+            answer = yield Send(data, frame, self.exchange.patience(len(data) + 24), refusal_s=0.04)
             values = answer.values if answer.kind is Kind.VALUES else None
         else:
             answer = yield from self.exchange.prove(command)

@@ -193,7 +193,8 @@ class Track:
         else:
             data = line.encode() + b"\r"
             shapes = tuple(shape for _, shape in reads)
-            answer = yield Send(data, Frame(nonce, shapes), self.exchange.patience(len(data) + 24), refusal_s=0.04)
+            frame = Frame(nonce, shapes, before=";".join(commands).count(";") + 1 if commands else 0)
+            answer = yield Send(data, frame, self.exchange.patience(len(data) + 24), refusal_s=0.04)
         if answer.kind is not Kind.VALUES:
             yield from self._refused(answer)
             return

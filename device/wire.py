@@ -45,10 +45,11 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Expects the framed values of one read."""
+    """Expects the framed values of one read, behind the prompts of commands that travel before it in its line."""
 
     nonce: str
     shapes: tuple[Shape, ...]
+    before: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +161,8 @@ class Wire:
         self._release(len(self._buffer))
         self._expected = expectation
         self._question = False
+        if isinstance(expectation, Frame) and self.manners.prompt_per_command:
+            self.owe(expectation.before)
         if sent:
             self._echoes.append(sent)
 

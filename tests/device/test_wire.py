@@ -228,3 +228,18 @@ def test_prompts_that_a_stop_left_are_no_part_of_the_next_text() -> None:
     assert answer.kind is Kind.ACCEPTED
     wire.feed(b"?002 QQ 5\r\n")
     assert wire.lines() == ["?002 QQ 5"]
+
+
+def test_prompts_of_commands_in_front_of_a_frame_are_no_text() -> None:
+    wire = Wire()
+    for nonce, came in (("ab", b"::"), ("cd", b":HELLO\r\n:")):
+        wire.expect(Frame(nonce, (Shape(3, 0),), before=2))
+        wire.feed(came + reply(nonce, [5], [Shape(3, 0)]))
+        answer = wire.answer()
+        assert answer is not None and answer.values == (5.0,)
+        assert wire.rest == ""
+    assert wire.lines() == ["HELLO"]
+    wire.expect(Frame("ef", (Shape(3, 0),), before=1))
+    wire.feed(b"?")  # refused: the rest of the line was not carried out
+    assert wire.question and wire.give_up().kind is Kind.UNCERTAIN
+    assert wire.rest == ""
