@@ -247,12 +247,8 @@ def renewed(program: Program, steps: Sequence[Step]) -> Steps:
 
 
 def _highest(program: Program) -> int:
-    highest = 0
-    for step in program.steps():
-        number = step.id[1:]
-        if number.isdecimal() and number.isascii() and len(number) < 10 and step.id[0] == "s":
-            highest = max(highest, int(number))
-    return highest
+    ours = [step.id[1:] for step in program.steps() if step.id[:1] == "s" and len(step.id) <= 10]
+    return max([int(number) for number in ours if number.isdecimal() and number.isascii()], default=0)
 
 
 # -------------------------------------------------------- where new steps belong

@@ -75,15 +75,16 @@ class Stretch:
 def runs(steps: Steps) -> Iterator[Steps]:
     """Cuts steps up; what holds many others stands alone."""
     start = 0
-    for place, step in enumerate(steps):
-        if step.instruction.container and step.enabled and not _is_small(step):
-            if start < place:
-                yield steps[start:place]
-            yield steps[place : place + 1]
-            start = place + 1
-        elif hash(step.id) % TYPICAL == 0 and start < place:
+    for place in [
+        place for place, step in enumerate(steps) if step.instruction.container or hash(step.id) % TYPICAL == 0
+    ]:
+        alone = stands_alone(steps[place : place + 1])
+        if start < place and (alone or hash(steps[place].id) % TYPICAL == 0):
             yield steps[start:place]
             start = place
+        if alone:
+            yield steps[place : place + 1]
+            start = place + 1
     if start < len(steps):
         yield steps[start:]
 

@@ -115,14 +115,19 @@ class ProgramDelegate(QStyledItemDelegate):
             marks[seen] = tuple(sorted({*marks.get(seen, ()), *threads}))
         self.marks = marks
 
-    def looks(self, node: Node) -> object:
+    def looks(self, node: Node, with_code: bool) -> object:
         """What a row shows now, to be compared: equal looks are painted alike."""
         step, name = node.step, node.id
         marks = (self.marks.get(name), name in self.found, self.next_place if self.next_place[1] == name else None)
         if step is None:
             return name, bool(node.children), node.folded and _hidden(node), marks
         error = self.error if self.error is not None and self.error[0] == name else None
-        said = (self.words.english(step), self.words.code(step), self._problem(name, step.enabled), error)
+        said = (
+            self.words.english(step),
+            self.words.code(step) if with_code else "",
+            self._problem(name, step.enabled),
+            error,
+        )
         hidden = node.folded and node.children and _hidden(node)
         return step.note, step.instruction.group, node.depth, bool(node.children), hidden, said, marks
 

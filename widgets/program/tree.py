@@ -305,9 +305,9 @@ class ProgramTree(QTableView):
         if first < 0:
             return []
         chosen = {line for each in self.selectionModel().selection() for line in range(each.top(), each.bottom() + 1)}
-        current, rows = self.currentIndex().row(), self._model.rows
+        current, rows, with_code = self.currentIndex().row(), self._model.rows, not self.isColumnHidden(CODE)
         return [
-            (self._delegate.looks(rows[line]), line in chosen, line == current)
+            (self._delegate.looks(rows[line], with_code), line in chosen, line == current)
             for line in range(first, len(rows) if last < 0 else last + 1)
         ]
 

@@ -16,11 +16,12 @@ class Words:
         self.listing: Listing | None = None
         self.problems: dict[str, list[str]] = {}
         self.errors: set[str] = set()
+        self._codes: dict[str, str] = {}  # of steps that were asked for since the listing is another one
 
     def show(self, document: Document, listing: Listing) -> None:
         """Speaks of `document` from now on."""
         self.document, self.listing = document, listing
-        self.problems, self.errors = {}, set()
+        self.problems, self.errors, self._codes = {}, set(), {}
         for problem in listing.problems:
             self.problems.setdefault(problem.step, []).append(problem.message)
             if problem.severity == "error":
@@ -44,7 +45,10 @@ class Words:
 
     def code(self, step: Step) -> str:
         """The step's own lines of code on one line."""
-        return "; ".join(self.code_lines(step))
+        known = self._codes.get(step.id)
+        if known is None:
+            known = self._codes[step.id] = "; ".join(self.code_lines(step))
+        return known
 
     def code_lines(self, step: Step) -> list[str]:
         """The text of those lines; of a line that holds several steps, the step's part."""

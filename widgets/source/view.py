@@ -43,6 +43,7 @@ class CodeView(QPlainTextEdit):
         self.highlighter = Highlighter(self.document(), self._sight)
         self.margin = Margin(self)
         self._following = False
+        self._held: range | None = None  # the lines in sight, while they change
         self.blockCountChanged.connect(lambda _: self._place_margin())
         self.updateRequest.connect(self._scroll_margin)
         self.verticalScrollBar().valueChanged.connect(self._scrolled)
@@ -55,12 +56,12 @@ class CodeView(QPlainTextEdit):
         """Shows `lines`; only the lines that differ are replaced, so scrolling and colours stay."""
         new, sight = list(lines), self._sight()
         found = hunks(self.lines, new)
-        self._following = True
+        self._following, self._held = True, sight
         with still(self):
             for hunk in found:
                 self._replace(hunk.start, hunk.end, hunk.lines)
                 self.lines[hunk.start : hunk.end] = hunk.lines
-        self._following = False
+        self._following, self._held = False, None
         self.lines = new
         for hunk in found:
             self._update(hunk, sight)
@@ -132,6 +133,8 @@ class CodeView(QPlainTextEdit):
 
     def _sight(self) -> range:
         """The lines on the screen, and one that is cut off; they are all equally high."""
+        if self._held is not None:
+            return self._held
         first = self.firstVisibleBlock().blockNumber()
         return range(first, first + self.viewport().height() // max(1, self.fontMetrics().lineSpacing()) + 2)
 
