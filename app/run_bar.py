@@ -46,6 +46,7 @@ BADGES = {
 }
 
 EEPROM = {True: ", burned", False: ", not burned", None: ", EEPROM unknown"}
+BESIDE, UNDER = Qt.ToolButtonStyle.ToolButtonTextBesideIcon, Qt.ToolButtonStyle.ToolButtonTextUnderIcon
 ROOM = 48  # px: margins and the space between
 
 
@@ -57,9 +58,10 @@ class RunBar(QWidget):
         self.toolbar: QToolBar = tool_bar()
         self.toolbar.setObjectName("run")
         self.toolbar.setIconSize(QSize(20, 20))
-        self.toolbar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.toolbar.setToolButtonStyle(BESIDE)
         self.badge = QPushButton()
         self.badge.setAutoDefault(False)
+        self._widths: dict[Qt.ToolButtonStyle, int] = {}  # px of the buttons, texts beside or under the pictures
         self._shown: Held | None = None
         self._eeprom: bool | None = None
         self._eeprom_words = ""
@@ -90,10 +92,26 @@ class RunBar(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """The buttons are never cut off: their texts are what is pressed."""
         super().showEvent(event)
-        self.toolbar.setMinimumWidth(self.toolbar.sizeHint().width())
+        if not self._widths:
+            self._widths = {style: self._width_with(style) for style in (UNDER, BESIDE)}
+            self.toolbar.setMinimumWidth(self._widths[UNDER])
+        self._show_badge()
+
+    def _width_with(self, style: Qt.ToolButtonStyle) -> int:
+        self.toolbar.setToolButtonStyle(style)
+        return self.toolbar.sizeHint().width()
+
+    def _fitting(self, words: str, short: str) -> tuple[Qt.ToolButtonStyle, str]:
+        """Texts beside the pictures and the badge in full, where there is room for that."""
+        metrics, room = self.badge.fontMetrics(), self.width() - ROOM
+        for style in (BESIDE, UNDER):
+            for text in (words, short):
+                if self._widths.get(style, 0) + metrics.horizontalAdvance(text) <= room:
+                    return style, text
+        return UNDER, short
 
     def _show_badge(self) -> None:
-        """The words in full where there is room for them, else in short."""
+        """What the controller holds, in as many words as there is room for."""
         held = self._shown
         role, words, short, help_text = BADGES[held.holding] if held is not None else ("quiet", "", "", "")
         percent = held.percent if held is not None else 0
@@ -101,8 +119,9 @@ class RunBar(QWidget):
         if held is not None and held.holding is Holding.SAME:
             words, short = f"{words}{EEPROM[self._eeprom]}", f"{short}{EEPROM[self._eeprom]}"
             role = role if self._eeprom is not False else "warning"
-        needed = self.toolbar.sizeHint().width() + self.badge.fontMetrics().horizontalAdvance(words) + ROOM
-        text = words if needed <= self.width() else short
+        style, text = self._fitting(words, short)
+        if style != self.toolbar.toolButtonStyle():
+            self.toolbar.setToolButtonStyle(style)
         if text != self.badge.text():
             self.badge.setText(text)
         self.badge.setVisible(held is not None)
