@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QLineEdit, QPushButton
 from codegen.setup import Unit
 from tests.stage import make_studio
 from widgets.parts.question import Question
+from widgets.teach.numbers import Numbers
 from widgets.teach.panel import TeachPanel
 from widgets.teach.parts import Parts
 
@@ -22,8 +23,8 @@ MIDDLE, REACH = 2.5, 2.5  # volts of a joystick between 0 and 5 V (SSC manual, f
 class Bench:
     """Offline first; `connect` goes on."""
 
-    def __init__(self, folder: Path) -> None:
-        self.stage = stage = make_studio(folder)
+    def __init__(self, folder: Path, example: str = "wire-cutter.tlp") -> None:
+        self.stage = stage = make_studio(folder, example=example)
         document = stage.studio.session.document
         axis = dc.replace(
             document.setup.axes[0], unit=Unit.MM, counts_per_unit="1000", reverse_limit="-50", forward_limit="200"
@@ -66,7 +67,7 @@ class Bench:
         """One of the joystick's buttons, and back."""
         for level in (0, 1):
             self.stage.rig.simulation.stimulus(f"in{number}", level)
-            self.stage.go(6)
+            self.stage.go(5)
 
     def click(self, button: QPushButton) -> None:
         assert button.isEnabled(), (button.text(), button.toolTip())
@@ -79,6 +80,13 @@ class Bench:
         self.stage.go(10)
         assert self.panel.enabled, self.panel.words()
         return self
+
+    def fill(self, numbers: Numbers, name: str, text: str) -> None:
+        """A number by keys."""
+        numbers.fields[name].setFocus()
+        numbers.fields[name].selectAll()
+        QTest.keyClick(numbers.fields[name], Qt.Key.Key_Delete)
+        QTest.keyClicks(numbers.fields[name], text)
 
     def typed(self, row: int, column: int, text: str) -> None:
         """A cell by keys."""
