@@ -15,7 +15,7 @@ from app.actions import MAIN, RUN, Actions
 from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
-from app.doctor_desk import DoctorDesk
+from app.doctor_desk import DoctorDesk, examined
 from app.editor import Editor
 from app.files import Files
 from app.folding import Folding
@@ -108,8 +108,9 @@ class Studio(QObject):
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.doctor = DoctorDesk(
-            self.connection, self.tick, ports, self.start.line, lambda: self.start.choice().port, self.window
-        )
+            self.connection, self.tick, ports, self.start.line, lambda: self.start.choice().port, self.window,
+            partial(examined, self.recorder),
+        )  # fmt: skip
         self.options = Options(settings, self._theme, self.window)
         self.which = WhichModel(self.connection, settings, self.desk.ask)
         self.met = FoundWorking(self.connection, self.desk.ask, self.connection.stop, self.run.upload)

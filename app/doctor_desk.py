@@ -12,20 +12,23 @@ from app.connection import Connection
 from app.search import Candidate
 from app.tick import Tick
 from device.api import Kind, LineSettings, State
+from device.transport import open_transport
 
 if TYPE_CHECKING:
     from device.doctor import Diagnosis
     from device.download import Job
+    from device.recorder import Recorder
     from widgets.connect.doctor import DoctorWindow
 
 Examine: TypeAlias = "Callable[[str, LineSettings], Job[Diagnosis]]"
 
 
-def examined(device: str, line: LineSettings) -> Job[Diagnosis]:
-    """The examination; what it needs is loaded when somebody asks for one."""
+def examined(recorder: Recorder, device: str, line: LineSettings) -> Job[Diagnosis]:
+    """The examination, recorded; what it needs is loaded when somebody asks for one."""
     from device.doctor import examination
 
-    return examination(device, line)
+    channel = recorder.channel()
+    return examination(device, line, open_=lambda address, line: channel.wrap(open_transport(address, line)))
 
 
 class DoctorDesk(QObject):
@@ -42,7 +45,7 @@ class DoctorDesk(QObject):
         line: Callable[[], LineSettings],
         chosen: Callable[[], str],
         parent: QWidget,
-        examine: Examine = examined,
+        examine: Examine,
     ) -> None:
         super().__init__(parent)
         self._connection, self._ports, self._line, self._chosen = connection, ports, line, chosen

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TypeAlias
 
 from PySide6.QtCore import QObject
 
@@ -11,8 +13,11 @@ from app.connection import Connection
 from app.search import Candidate
 from app.tick import Tick
 from device.api import Kind
-from device.second_port import SecondPort
+from device.second_port import LINE, SecondPort
+from device.transport import Transport, open_transport
 from widgets.operator.panel import CLOSED, SIMULATED, OperatorPanel
+
+Opener: TypeAlias = Callable[[], Transport]
 
 
 class Operator(QObject):
@@ -29,6 +34,7 @@ class Operator(QObject):
         super().__init__(parent)
         self._connection, self._panel, self._ports = connection, panel, ports
         self.port: SecondPort | None = None
+        self.tap: Callable[[Opener], Opener] = lambda opener: opener  # records what goes over the line
         self._listed: object = None  # what the devices were listed for
         self._listing: threading.Thread | None = None
         self._found: list[str] = []
@@ -43,9 +49,9 @@ class Operator(QObject):
         self.close()
         world = self._connection.world
         if name != SIMULATED:
-            self.port = SecondPort.at(name)
+            self.port = SecondPort(self.tap(partial(open_transport, name, LINE)))
         elif world is not None:
-            self.port = SecondPort(world.second)
+            self.port = SecondPort(self.tap(world.second))
         self.once()
 
     def close(self) -> None:

@@ -394,10 +394,13 @@ def _clear(transport: Transport) -> bool | None:
 
 
 def examination(
-    address: str, line: LineSettings | None = None, progress: Callable[[Job[Diagnosis]], None] | None = None
+    address: str,
+    line: LineSettings | None = None,
+    progress: Callable[[Job[Diagnosis]], None] | None = None,
+    open_: Callable[[str, LineSettings], Transport] = open_transport,
 ) -> Job[Diagnosis]:
     """Begins one beside the caller; `job.cancel()` ends it, `job.future` gets the diagnosis."""
     job: Job[Diagnosis] = Job(progress)
-    doctor = Doctor(address, line or LineSettings(), job)
+    doctor = Doctor(address, line or LineSettings(), job, open_=open_)
     threading.Thread(target=lambda: job.future.set_result(doctor.examine()), name="doctor", daemon=True).start()
     return job

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from device.transport import LineSettings, OpenFailed, Transport, TransportLost, open_transport
+from device.transport import LineSettings, OpenFailed, Transport, TransportLost
 
 LINE = LineSettings(baud=9600)  # recommended for the terminal (dmc-1412-1414.txt l.5318)
 MOST_WAITING = 256  # characters kept while the line takes none
@@ -25,11 +25,6 @@ class SecondPort:
         self._waiting = bytearray()
         self._thread: threading.Thread | None = threading.Thread(target=self._open, name="port 2", daemon=True)
         self._thread.start()
-
-    @classmethod
-    def at(cls, address: str, line: LineSettings = LINE) -> SecondPort:
-        """A serial device or `socket://host:port`."""
-        return cls(lambda: open_transport(address, line))
 
     def _open(self) -> None:
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -14,8 +15,9 @@ from PySide6.QtWidgets import QApplication
 
 from app.search import Candidate
 from device.api import Kind
-from device.second_port import SecondPort
+from device.second_port import LINE, SecondPort
 from device.simulator.process import SimulatorProcess
+from device.transport import open_transport
 from tests.stage import Stage, make_studio
 from widgets.operator.panel import NOWHERE, SIMULATED, WATCHED
 
@@ -128,7 +130,7 @@ def test_a_machine_offers_other_devices_than_its_own(stage: Stage) -> None:
 
 
 def test_a_port_that_does_not_open_is_a_sentence() -> None:
-    port = SecondPort.at("/dev/no-such-port")
+    port = SecondPort(partial(open_transport, "/dev/no-such-port", LINE))
     end = time.monotonic() + 10
     while not port.failed:
         assert time.monotonic() < end
@@ -139,7 +141,7 @@ def test_a_port_that_does_not_open_is_a_sentence() -> None:
 
 def test_a_second_port_over_a_real_line() -> None:
     with SimulatorProcess("ssc1", port2="127.0.0.1:0") as process:
-        first, second = SecondPort.at(process.address), SecondPort.at(process.address2)
+        first, second = (SecondPort(partial(open_transport, at, LINE)) for at in (process.address, process.address2))
         end, heard, asked = time.monotonic() + 20, b"", False
         while b"HELLO" not in heard:
             assert time.monotonic() < end

@@ -87,6 +87,7 @@ def test_nothing_is_sent_and_there_is_nothing_to_stop(stage: Stage) -> None:
     closed = len(rig.loopback.written)
     studio = stage.studio
     actions = studio.actions.actions
+    wait(stage, lambda: "recording" in actions["download"].statusTip())
     for name in ("download", "execute", "halt", "burn", "upload", "take_control"):
         assert not actions[name].isEnabled(), name
         assert "recording" in actions[name].statusTip(), name
@@ -145,14 +146,19 @@ def test_what_is_done_is_noted_in_words(stage: Stage) -> None:
     studio = stage.studio
     stage.type("TP")
     studio.actions["layout_run"].trigger()
+    studio.window.activateWindow()
+    QTest.qWaitForWindowActive(studio.window, 3000)
     studio.desk.bring("Events")
     stage.go()
+    studio.at_machine.event_list.search.setFocus()
     QTest.keyClicks(studio.at_machine.event_list.search, "limit")
     QTest.keyClick(studio.at_machine.event_list.search, Qt.Key.Key_Return)
     studio.desk.ask("Which one?", "Two are there.", [("The first", lambda: None)])
     stage.go()
     assert studio.desk.question is not None
     button = next(each for each in studio.desk.question.findChildren(QPushButton) if each.text() == "The first")
+    studio.desk.question.activateWindow()
+    QTest.qWaitForWindowActive(studio.desk.question, 3000)
     button.setFocus()
     stage.go()
     QTest.mouseClick(button, LEFT)

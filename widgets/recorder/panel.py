@@ -28,7 +28,7 @@ from widgets.parts.icons import icon
 
 COLUMNS = ("Time", "Who", "What happened")
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 20.0)
-MOST = 3000  # rows shown, the newest ones
+MOST = 1000  # rows shown, the newest ones
 STEP = 10  # of the slider, in a second
 SECOND, PAGE = 1, 10  # s: a key, a page
 EMPTY = (
