@@ -236,7 +236,7 @@ class Commissioning(QObject):
         if self.turned is not None and (counts := self._fresh("position")) is not None:
             self.turned = self.turned.with_reading(int(counts))
         if self.switches is not None and not self._looking and not self.busy:
-            from device.commissioning.moves import look_at_switches
+            from device.commissioning.settings import look_at_switches
 
             self._looking = True
             future = self.controller.run(look_at_switches(self.controller, self.record.axis), Priority.POLL, "poll")
@@ -380,7 +380,7 @@ class Commissioning(QObject):
                 return
 
     def _put_back(self, former: Former) -> None:
-        from device.commissioning.moves import putting_back_of
+        from device.commissioning.guarding import putting_back_of
 
         def done(future: Future[Any]) -> None:
             self.said.emit(failure_of(future) or future.result())

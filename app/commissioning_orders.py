@@ -13,8 +13,8 @@ from codegen.numbers import number_problem, parse_number, plain, shown
 from codegen.rescale import with_setup
 from codegen.setup_registers import BY_COMMAND
 from codegen.twoletter.fixed import ONE, scaled
-from device.commissioning import judge, moves
-from device.commissioning.moves import Phases, Trial
+from device.commissioning import judge, moves, settings, sine
+from device.commissioning.moves import Trial
 from device.commissioning.record import Finding, Verdict
 from device.commissioning.seen import NOT_FITTED, NOTHING, Switches, Turned
 from device.download import Job
@@ -44,7 +44,7 @@ class Orders:
             "guards": self._guards, "phases": self._ask_phases, "zero": self._ask_zero, "polarity": self._polarity,
             "forward": partial(self._direction, True), "backward": partial(self._direction, False),
             "scale": self._scale, "measured": self._measured, "limits": self._limits,
-            "take_limits": self._take_limits, "burn": self._ask_burn,
+            "halls": self._halls, "take_limits": self._take_limits, "burn": self._ask_burn,
         }  # fmt: skip
 
     def carry_out(self, name: str) -> None:
@@ -73,7 +73,7 @@ class Orders:
 
     def _off(self) -> None:
         d = self._d
-        d.run("Switching the motor off", moves.motor_off(d.controller, d.record.axis), lambda _: None)
+        d.run("Switching the motor off", settings.motor_off(d.controller, d.record.axis), lambda _: None)
 
     def _safety(self) -> None:
         d = self._d
@@ -113,7 +113,7 @@ class Orders:
             d.switches = Switches()
             d.begin()
 
-        d.run("Setting CN", moves.set_switches(d.controller, d.record.axis, limit, home), done)
+        d.run("Setting CN", settings.set_switches(d.controller, d.record.axis, limit, home), done)
 
     def _answer(self, outcome: str) -> None:
         d = self._d
@@ -171,7 +171,7 @@ class Orders:
             was = tuple((f"{name} before", _told(name, former[name])) for name in wanted)
             d.found(dc.replace(finding, facts=(*finding.facts, *was)))
 
-        steps = moves.set_values(d.controller, d.record.axis, wanted, d.folder, d.now())
+        steps = settings.set_values(d.controller, d.record.axis, wanted, d.folder, d.now())
         d.run("Setting and reading back", steps, done)
 
     def _take_limits(self) -> None:
@@ -192,21 +192,24 @@ class Orders:
 
     # ---- moves
 
-    def _move(self, trial: Trial, done: Callable[[Moved], None]) -> None:
+    def _move(self, trial: Trial, done: Callable[[Moved], None], first: bool = False) -> None:
         d = self._d
         if trial.problem:
             raise NotTyped(f"Not moved: {trial.problem}")
         d.moved = d.measured = None
         job: Job[Moved] = Job()
-        steps = moves.move(d.controller, trial, d.folder, d.now(), job)
+        steps = (moves.first_move if first else moves.move)(d.controller, trial, d.folder, d.now(), job)
         d.run(f"Axis {trial.axis} moves", steps, done, job)
 
     def _polarity(self) -> None:
         d = self._d
         counts = self._whole("counts", "Way of the test move", str(moves.TRIAL_COUNTS))
         error = self._whole("error", "Error limit meanwhile", str(moves.TRIAL_ERROR))
-        if abs(counts) <= error:
-            raise NotTyped("The way of the test move must be longer than the error limit, which guards it.")
+        if not error < abs(counts) <= moves.LARGEST_TRIAL:
+            raise NotTyped(
+                f"The way of the test move must be longer than the error limit, which guards it, and at most "
+                f"{moves.LARGEST_TRIAL} counts."
+            )
 
         def done(moved: Moved) -> None:
             d.moved = moved
@@ -215,7 +218,7 @@ class Orders:
                 finding = dc.replace(finding, verdict=Verdict.OPEN, sentence=f"{finding.sentence} {WENT}")
             d.found(finding)
 
-        self._move(Trial(d.record.axis, counts, error, self._torque()), done)
+        self._move(Trial(d.record.axis, counts, error, self._torque()), done, first=True)
 
     def _torque(self) -> Fraction:
         return parse_number(self._d.record.text("guards", "torque", "1")) or Fraction(1)
@@ -255,7 +258,7 @@ class Orders:
 
     def _ask_phases(self) -> None:
         d = self._d
-        phases = Phases(
+        phases = sine.Phases(
             d.record.axis, self._number("cycle", "Magnetic cycle"), int(d.text("halls", "0")),
             self._number("volts", "Voltage", "2"), self._whole("time", "Time for each phase", "200"),
         )  # fmt: skip
@@ -267,13 +270,13 @@ class Orders:
         )
         d.ask("Turn the motor by one magnetic cycle?", words, [("Turn it", partial(self._phases, phases))], "warning")
 
-    def _phases(self, phases: Phases) -> None:
+    def _phases(self, phases: sine.Phases) -> None:
         d = self._d
 
         def done(answer: str) -> None:
             d.found(judge.judge_phases(answer, plain(phases.cycle)))
 
-        d.run("The motor turns", moves.try_phases(d.controller, phases), done)
+        d.run("The motor turns", sine.try_phases(d.controller, phases), done)
 
     def _ask_zero(self) -> None:
         d = self._d
@@ -290,12 +293,25 @@ class Orders:
             reply, counts = result
             d.found(judge.judge_zero(reply.accepted, reply.code, counts))
 
-        d.run("The motor goes to zero", moves.drive_to_zero(d.controller, d.record.axis, volts, offset), done)
+        d.run("The motor goes to zero", sine.drive_to_zero(d.controller, d.record.axis, volts, offset), done)
+
+    def _halls(self) -> None:
+        d = self._d
+        cycle = parse_number(d.record.text("phases", "cycle"))
+        if cycle is None:
+            raise NotTyped("Type the magnetic cycle under “Phases and halls” first.")
+
+        def done(result: tuple[Moved, int, int]) -> None:
+            d.found(judge.judge_halls(*result))
+
+        job: Job[Moved] = Job()
+        steps = sine.by_halls(d.controller, d.record.axis, cycle, self._torque(), d.folder, d.now(), job)
+        d.run(f"Axis {d.record.axis} moves", steps, done, job)
 
     # ---- burn
 
     def _ask_burn(self) -> None:
-        words = moves.BURN_WORDS.format(axis=self._d.record.axis)
+        words = settings.BURN_WORDS.format(axis=self._d.record.axis)
         self._d.ask("Write to EEPROM?", words, [("Write to EEPROM", self._burn)], "warning")
 
     def _burn(self) -> None:
@@ -306,7 +322,7 @@ class Orders:
             good = reply.accepted
             d.found(Finding(Verdict.PASSED if good else Verdict.FAILED, words if good else reply.reason))
 
-        d.run("Writing to EEPROM", moves.burn(d.controller, d.record.axis), done)
+        d.run("Writing to EEPROM", settings.burn(d.controller, d.record.axis), done)
 
 
 DEAF = (

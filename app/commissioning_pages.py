@@ -191,6 +191,11 @@ def _polarity(now: Now) -> Parts:
     return _going(now), fields, (), acts
 
 
+def _halls(now: Now) -> Parts:
+    without = "" if now.text("phases", "halls", "0") != "0" else "No hall sensors were chosen under “Phases and halls”."
+    return _going(now), (), (), (Act("halls", "Move", now.send or without, primary=True, moves=True),)
+
+
 def _scale(now: Now) -> Parts:
     fields = (
         Entered("distance", "Move by", now.text("scale", "distance"), now.axis.symbol),
@@ -234,6 +239,7 @@ PARTS: Mapping[str, Callable[[Now], Parts]] = {
     "phases": _phases,
     "zero": _zero,
     "polarity": _polarity,
+    "halls": _halls,
     "scale": _scale,
     "limits": _limits,
     "burn": _burn,

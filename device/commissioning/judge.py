@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -65,11 +66,22 @@ class Moved:
     tripped: bool  # the controller switched the motor off
     torque: float = 0.0
     bounded: bool = False  # it left its bounds and was switched off from here
+    changes: int = 0  # of the reading, until it stood
 
     @property
     def way(self) -> int:
         """How far it came, in the asked direction."""
         return (self.end - self.start) * (1 if self.asked >= 0 else -1)
+
+    def with_before(self, before: Moved) -> Moved:
+        """With what the reading did in a try before, in which the axis seemed to stand."""
+        changes = self.changes + before.changes
+        return dc.replace(self, low=min(self.low, before.low), high=max(self.high, before.high), changes=changes)
+
+    @property
+    def toggled(self) -> bool:
+        """It went one count forward and the same one back: a single count may be a movement."""
+        return self.high - self.low == 1 and self.changes > 1
 
     @property
     def furthest(self) -> int:
@@ -247,7 +259,7 @@ def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
     if not moved.tripped and not moved.bounded and abs(moved.way - abs(moved.asked)) <= ARRIVED:
         words = f"The loop has the right polarity: the axis came {moved.way} of {abs(moved.asked)} counts and stood."
         return Finding(PASSED, words, (), facts)
-    if moved.high - moved.low == 1:
+    if moved.toggled:
         words = "The reading only toggled by one count while the motor was driven: an encoder channel is dead."
         return Finding(FAILED, words, ENCODER_CAUSES, facts)
     if moved.furthest <= STIRRED:
@@ -339,6 +351,19 @@ def judge_phases(answer: str, cycle: str) -> Finding:
         )
         return Finding(FAILED, words, ("Type the right counts of one magnetic cycle (BM).",), facts)
     return Finding(PASSED, f"The controller says: {'; '.join(lines)}.", (), facts)
+
+
+def judge_halls(moved: Moved, before: int, after: int) -> Finding:
+    """Whether the phase was set at a hall transition during the move."""
+    facts = (*_move_facts(moved), ("Hall inputs", f"{before} before, {after} after"))
+    if before in (0, 7) or after in (0, 7):
+        return Finding(FAILED, "The hall inputs show a state that no sensors give.", FIELD_ADVICE[110], facts)
+    if moved.tripped or moved.bounded:
+        return Finding(FAILED, "The axis did not follow while its phase was set.", TURN_THE_PHASES, facts)
+    if before == after:
+        words = "The hall inputs did not change on the way, so the phase was not set."
+        return Finding(FAILED, words, ("Is the magnetic cycle (BM) right? Are all three sensors wired?",), facts)
+    return Finding(PASSED, "The phase was set where the hall sensors changed. The motor is off.", (), facts)
 
 
 def judge_zero(accepted: bool, code: int, counts: int | None) -> Finding:

@@ -136,6 +136,21 @@ STEPS: tuple[Step, ...] = (
         needs=("safety", "encoder", "switches", "guards"),
     ),
     Step(
+        "halls",
+        "Sine: phase by the halls",
+        (
+            "Only with hall sensors, for a phase that is more exact than their estimate at power-up: press “Move”. "
+            "The axis goes over more than a sixth of its magnetic cycle, and its phase is set on the way (BC).",
+        ),
+        "the hall inputs before and after, and the move",
+        "the halls changed on the way, and the axis followed",
+        "dmc-1412-1414.txt l.773-804",
+        Drives.SINE,
+        moves=True,
+        optional=True,
+        needs=("zero", "polarity"),
+    ),
+    Step(
         "scale",
         "Scale",
         (

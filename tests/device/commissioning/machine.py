@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from device.api import Job
 from device.commissioning.judge import Moved
-from device.commissioning.moves import Trial, move
+from device.commissioning.moves import Trial, first_move
 from device.simulator.kernel import layout
 from device.simulator.plant import Plant
 from device.tasks import Priority, Steps
@@ -53,7 +53,7 @@ class Machine(Bench):
     def try_move(self, folder: Path, trial: Trial | None = None, job: Job[Moved] | None = None) -> Moved:
         """The polarity move; afterwards the motor coasts until it stands."""
         self.rest()
-        moved = self.carry_out(move(self.controller, trial or Trial("X", 300), folder, NOW, job or Job()))
+        moved = self.carry_out(first_move(self.controller, trial or Trial("X", 300), folder, NOW, job or Job()))
         self.run(3.0)
         return moved
 

@@ -11,6 +11,7 @@ from device.commissioning.judge import (
     Moved,
     judge_direction,
     judge_encoder,
+    judge_halls,
     judge_phases,
     judge_polarity,
     judge_safety,
@@ -130,7 +131,8 @@ GOOD = Moved(300, 0, 298, 300, 0, 301, 1, False)
         (Moved(300, 0, -180, 30, -180, 0, 8, True), "Wrong polarity"),
         (Moved(300, 0, 400, 40, 0, 400, 8, True), "Wrong polarity"),
         (Moved(300, 0, 700, 300, 0, 700, 1, False, bounded=True), "Wrong polarity"),
-        (Moved(300, 0, 1, 61, 0, 1, 8, True), "toggled by one count"),
+        (Moved(300, 0, 1, 61, 0, 1, 8, True, changes=3), "toggled by one count"),
+        (Moved(300, 0, 1, 61, 0, 1, 8, True, changes=1), "did not move"),
         (Moved(300, 0, 0, 61, 0, 0, 8, True), "did not move"),
         (Moved(300, 0, 40, 101, 0, 40, 8, True), "stopped short"),
         (Moved(300, 0, 100, 100, 0, 100, 2, False), "forward limit stopped"),
@@ -182,6 +184,17 @@ def test_what_else_is_judged() -> None:
     assert judge_phases("", "1000").verdict is Verdict.FAILED
 
 
+def test_the_phase_by_the_halls() -> None:
+    assert judge_halls(GOOD, 1, 3).verdict is Verdict.PASSED
+    for moved, before, after, words in (
+        (GOOD, 3, 3, "did not change"),
+        (GOOD, 0, 3, "no sensors give"),
+        (Moved(300, 0, -180, 30, -180, 0, 8, True), 1, 3, "did not follow"),
+    ):
+        finding = judge_halls(moved, before, after)
+        assert finding.verdict is Verdict.FAILED and words in finding.sentence
+
+
 def test_the_record_is_taken_up_again(tmp_path: Path) -> None:
     finding = Finding(Verdict.PASSED, "Good.", ("Go on.",), (("Counts", "5"),), "2026-11-22 12:00")
     record = Record("X", "ssc2", 4711, True).found("safety", finding).with_text("encoder", "distance", "2.5")
@@ -210,7 +223,7 @@ def test_every_axis_has_its_own_steps() -> None:
     servo, sine, stepper = (
         tuple(step.key for step in steps_for(*kind)) for kind in ((False, False), (False, True), (True, False))
     )
-    assert set(sine) - set(servo) == {"phases", "zero"}
+    assert set(sine) - set(servo) == {"phases", "zero", "halls"}
     assert set(servo) - set(stepper) == {"guards", "polarity"}
     assert sine.index("zero") < sine.index("polarity")
     assert MOST == 2000

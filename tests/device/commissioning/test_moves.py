@@ -5,6 +5,7 @@ How far it went is told by the simulated motor itself, not by the encoder (dmc-1
 
 from __future__ import annotations
 
+import random
 import re
 from fractions import Fraction
 from pathlib import Path
@@ -14,15 +15,17 @@ import pytest
 
 from codegen.twoletter.fixed import ONE, scaled
 from device.api import Job, Kind, LinkError, NotAllowed
-from device.commissioning import moves
-from device.commissioning.judge import Moved, judge_phases, judge_polarity, judge_switches, judge_zero
-from device.commissioning.moves import Phases, Trial
+from device.commissioning import guarding, moves, settings, sine
+from device.commissioning.judge import Moved, judge_halls, judge_phases, judge_polarity, judge_switches, judge_zero
+from device.commissioning.moves import Trial
 from device.commissioning.record import Verdict
 from device.commissioning.seen import NOTHING, Switches
+from device.commissioning.sine import Phases
 from device.simulator.plant import Drive, Enable
 from device.tasks import Priority
 from device.tuning.guards import left_behind
 from tests.device.commissioning.machine import NOW, Machine, bearing
+from tests.long import count, record
 
 MOST = 2000  # counts, whatever is wrong
 FACTORY = (0.0, 16384.0, 9.9982, 2147483647.0, -2147483648.0, 25000.0, 256000.0, 256000.0, 1.0)
@@ -98,7 +101,7 @@ def test_what_ends_a_move_puts_everything_back(how: str, tmp_path: Path) -> None
     assert not machine.simulation.state()["axes"]["X"]["motor_on"]
     if how == "watch":  # nothing more may be sent; it is offered later
         controller.take_control()
-        machine.carry_out(moves.putting_back_of(controller, left_behind(tmp_path)[0]))
+        machine.carry_out(guarding.putting_back_of(controller, left_behind(tmp_path)[0]))
     assert machine.registers() == FACTORY
     assert not left_behind(tmp_path)
 
@@ -117,7 +120,7 @@ def test_a_cut_cable_leaves_the_guards_and_the_file(tmp_path: Path) -> None:
     machine.loopback.unplugged = False
     machine.ready()
     assert machine.registers() != FACTORY
-    sentence = machine.carry_out(moves.putting_back_of(controller, left_behind(tmp_path)[0]))
+    sentence = machine.carry_out(guarding.putting_back_of(controller, left_behind(tmp_path)[0]))
     assert "motor is off" in sentence
     assert machine.registers() == FACTORY
     assert not left_behind(tmp_path)
@@ -129,6 +132,8 @@ def test_what_may_not_begin(tmp_path: Path) -> None:
         machine.try_move(tmp_path)
     machine.controller.take_control()
     with pytest.raises(NotAllowed, match="no step moves an axis by more than"):
+        machine.try_move(tmp_path, Trial("X", 600, error=1300))
+    with pytest.raises(NotAllowed, match="the first move is 600 counts at most"):
         machine.try_move(tmp_path, Trial("X", 1900))
     machine.simulation.load_program("#A\nJP #A\nEN")
     machine.simulation.execute(0)
@@ -142,15 +147,15 @@ def test_limits_are_set_read_back_and_the_motor_is_off(tmp_path: Path) -> None:
     machine = Machine()
     machine.ask("SH")
     wanted = {"OE": ONE, "ER": 2000 * ONE, "TL": scaled(Fraction(1))}
-    former, there = machine.carry_out(moves.set_values(machine.controller, "X", wanted, tmp_path, NOW))
+    former, there = machine.carry_out(settings.set_values(machine.controller, "X", wanted, tmp_path, NOW))
     assert (there["OE"], there["ER"]) == (ONE, 2000 * ONE)
     assert there["TL"] / ONE == pytest.approx(1, abs=3e-4)  # the converter's step
     assert former["ER"] == 16384 * ONE
     assert machine.registers()[:3] == (1.0, 2000.0, pytest.approx(1, abs=3e-4))
     assert not machine.simulation.state()["axes"]["X"]["motor_on"]
-    assert machine.carry_out(moves.set_switches(machine.controller, "X", 1, -1))
+    assert machine.carry_out(settings.set_switches(machine.controller, "X", 1, -1))
     assert tuple(machine.simulation.unit.state.switches[:2]) == (1, -1)
-    assert machine.carry_out(moves.burn(machine.controller, "X")).accepted
+    assert machine.carry_out(settings.burn(machine.controller, "X")).accepted
 
 
 @pytest.mark.parametrize(
@@ -162,7 +167,7 @@ def test_switches_tripped_by_hand(plant: dict[str, Any], words: str) -> None:
     seen = Switches()
 
     def look() -> Switches:
-        levels = machine.carry_out(moves.look_at_switches(machine.controller, "X"))
+        levels = machine.carry_out(settings.look_at_switches(machine.controller, "X"))
         assert levels is not None
         return seen.with_levels(levels)
 
@@ -196,7 +201,7 @@ def test_sine_commutation(plant: dict[str, Any], cycle: Fraction, words: str, tm
     machine = Machine("dmc1412", bearing(**plant))
     machine.rest()
     phases = Phases("X", cycle, 5 if "hall_inputs" in plant else 0, Fraction(2))
-    finding = judge_phases(machine.carry_out(moves.try_phases(machine.controller, phases)), "1333.333")
+    finding = judge_phases(machine.carry_out(sine.try_phases(machine.controller, phases)), "1333.333")
     assert finding.verdict is (Verdict.FAILED if words else Verdict.PASSED)
     assert words in finding.sentence
     assert machine.furthest < MOST
@@ -205,19 +210,50 @@ def test_sine_commutation(plant: dict[str, Any], cycle: Fraction, words: str, tm
         return
     told = re.search(r"BB is about (\d+)", finding.sentence)
     assert told is not None and abs(int(told[1]) - 30) <= 3  # steps of five degrees
-    reply, counts = machine.carry_out(moves.drive_to_zero(machine.controller, "X", Fraction(2), 30))
+    reply, counts = machine.carry_out(sine.drive_to_zero(machine.controller, "X", Fraction(2), 30))
     assert judge_zero(reply.accepted, reply.code, counts).verdict is Verdict.PASSED
     assert abs(machine.simulation.motion.commutation.phase_error(0)) < 2
     assert judge_polarity(machine.try_move(tmp_path)).verdict is Verdict.PASSED
+    machine.rest()
+    moved, before, after = machine.carry_out(
+        sine.by_halls(machine.controller, "X", cycle, Fraction(1), tmp_path, NOW, Job())
+    )
+    assert judge_halls(moved, before, after).verdict is Verdict.PASSED
+    assert before != after
+    assert not machine.simulation.motion.commutation.calibrating(0)
+    assert abs(machine.simulation.motion.commutation.phase_error(0)) < 2
+    assert machine.furthest < MOST
 
 
 def test_a_motor_without_power_has_no_commutation_zero() -> None:
     machine = Machine("dmc1412", bearing(amplifier_enable=Enable.NONE))
     phases = Phases("X", Fraction(1900 + 1), 0, Fraction(2))
     with pytest.raises(NotAllowed, match="more than 2000 counts"):
-        machine.carry_out(moves.try_phases(machine.controller, phases))
+        machine.carry_out(sine.try_phases(machine.controller, phases))
     machine.ask("BA X")
-    reply, counts = machine.carry_out(moves.drive_to_zero(machine.controller, "X", Fraction(2), 0))
+    reply, counts = machine.carry_out(sine.drive_to_zero(machine.controller, "X", Fraction(2), 0))
     finding = judge_zero(reply.accepted, reply.code, counts)
     assert finding.verdict is Verdict.FAILED
     assert "error 113" in finding.sentence
+
+
+@pytest.mark.long
+def test_nothing_runs_far_on_any_machine(tmp_path: Path) -> None:
+    """Motors from 20 to 1000 g cm², drives up to 2 A/V, encoders of 250 to 2500 lines, each with a fault."""
+    seeds = random.Random(7)
+    furthest = 0.0
+    for number in range(count(10, 300)):
+        plant = bearing(
+            inertia=10 ** seeds.uniform(-4.7, -3),
+            amplifier_gain=10 ** seeds.uniform(-0.5, 0.3),
+            coulomb_friction=10 ** seeds.uniform(-2.7, -1.5),
+            viscous_friction=10 ** seeds.uniform(-2.7, -2.2),
+            encoder_lines=seeds.choice([250.0, 500.0, 1000.0, 2500.0]),
+            **seeds.choice([{"motor_reversed": True}, {"dead_channel": "a"}, {"dead_channel": "b"}]),
+        )
+        machine = Machine(plant=plant)
+        finding = judge_polarity(machine.try_move(tmp_path))
+        assert finding.verdict is Verdict.FAILED, (number, plant)
+        assert machine.furthest < MOST, (number, plant)
+        furthest = max(furthest, machine.furthest)
+    record("furthest way in a commissioning step", "pytest tests/device/commissioning", 7, furthest, "counts")

@@ -153,7 +153,7 @@ def test_the_list_is_taken_up_where_it_was_left_and_watch_sends_nothing(stage: S
 
 def test_stop_ends_the_step_and_everything_is_put_back(stage: Stage, tmp_path: Path) -> None:
     person = Person(stage, kind=Kind.MACHINE, done=POLARITY)
-    person.type("counts", "1500")
+    person.type("counts", "600")
     before = stage.rig.simulation.unit.state.registers["SP"][0]
     QTest.mouseClick(person.window.page.acts["polarity"], LEFT)
     start = person.place
@@ -171,7 +171,7 @@ def test_stop_ends_the_step_and_everything_is_put_back(stage: Stage, tmp_path: P
 
 def test_what_an_interrupted_step_left_is_offered(stage: Stage, tmp_path: Path) -> None:
     person = Person(stage, kind=Kind.MACHINE, done=POLARITY)
-    person.type("counts", "1500")
+    person.type("counts", "600")
     before = stage.rig.simulation.unit.state.registers["SP"][0]
     QTest.mouseClick(person.window.page.acts["polarity"], LEFT)
     start = person.place
