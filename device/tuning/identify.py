@@ -202,8 +202,8 @@ def notes(found: Found, sigma: dict[str, float]) -> tuple[str, ...]:
         )
     if found.left > 3.0 * COUNTING:
         said.append(
-            f"{found.left:.1f} counts of the motion remain unexplained: play, cogging or a second resonance are not "
-            "in the model. Leave a larger margin."
+            f"{found.left:.1f} counts of the motion remain unexplained: play, cogging, a second resonance or the "
+            "amplifier's current limit are not in the model. Leave a larger margin, or try smaller jumps."
         )
     return tuple(said)
 

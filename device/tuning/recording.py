@@ -141,7 +141,10 @@ def every_sample(recording: Recording) -> Samples | NotIdentified:
             "these were not the gains, or another loop (dual loop, feed-forward) was at work."
         )
     if unsure > 0.2 * count:
-        return NotIdentified("The torque was at its limit most of the time: use smaller jumps or lower gains.")
+        return NotIdentified(
+            "The torque was at its limit most of the time, as it is when the loop oscillates: "
+            "set KP and KD to a quarter and try again."
+        )
     places = commanded(recording, errors)
     if isinstance(places, str):
         return NotIdentified("The excitation can not be used: " + places)

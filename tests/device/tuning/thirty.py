@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import random
 from dataclasses import dataclass
+from typing import Any
 
 from device.simulator.plant import Drive, Place, Plant
 from device.tuning.design import Target
@@ -48,6 +50,35 @@ def rigid(
         coulomb_friction=dry,
         **more,  # type: ignore[arg-type]
     )
+
+
+def random_machine(chance: random.Random) -> Plant:
+    """Any machine of the kinds below, with noise and torque ripple in some; the amplifier suits inertia and encoder."""
+    times, lines = math.exp(chance.uniform(0, math.log(50))), chance.choice([250, 500, 1000, 2500, 5000, 10000])
+    suits = times * 1000 / lines * chance.choice([0.2, 0.5, 1, 2])
+    amplifier = min(10.0, max(0.5, suits))
+    volt = amplifier * Plant().torque_constant
+    known: dict[str, Any] = {
+        "amplifier_gain": amplifier,
+        "encoder_lines": float(lines),
+        "viscous_friction": chance.uniform(0, 3) * MOTOR * times,
+        "coulomb_friction": volt * chance.choice([0, 0, 0.02, 0.05, 0.1]),
+        "encoder_noise": chance.choice([0, 0, 0.3]),
+        "torque_ripple": chance.choice([0, 0, 0.02]),
+        "delay_samples": chance.choice([0, 0, 1, 2, 4]),
+        "gravity": chance.choice([0, 0, chance.uniform(-0.8, 0.8)]),
+    }
+    kind = chance.choice(["mass", "mass", "speed", "spring", "spring", "behind"])
+    if kind in ("mass", "speed"):
+        known["inertia"] = MOTOR * times
+    else:
+        hertz = math.exp(chance.uniform(math.log(30), math.log(300)))
+        known.update(spring(hertz, chance.uniform(0.02, 0.1), chance.uniform(0.2, 2), times))
+    if kind == "speed":
+        known.update(drive=Drive.VELOCITY, tachometer_gain=chance.uniform(0.05, 0.2))
+    if kind == "behind":
+        known["main"] = Place.LOAD
+    return Plant(**known)
 
 
 CASES = (
