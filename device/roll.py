@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 MOST = 1 << 18  # values of a channel
 LEAST_S = 0.0139  # between two of them, so that an hour fits; a line at 38 400 baud carries no more
 PIECE = 64  # values to one coarse piece
-FINE = 4096  # values drawn one by one; a picture has fewer columns
+FINE = 4096  # values drawn one by one
+COLUMNS = 1000  # of a far view; more than a picture shows apart
 
 
 class Track:
@@ -65,11 +66,12 @@ class Track:
         low, high = max(self.first, self._place(start) - 1), min(self.count, self._place(end) + 1)
         if high - low <= FINE:
             return self.between(start, end)
-        pieces = np.arange(-(-low // PIECE), high // PIECE)
-        places = pieces % len(self._piece_times)
-        times = np.repeat(self._piece_times[places], 2)
+        places = np.arange(-(-low // PIECE), high // PIECE) % len(self._piece_times)
+        starts = np.arange(0, len(places), -(-len(places) // COLUMNS))
+        times = np.repeat(self._piece_times[places][starts], 2)
         values = np.empty(len(times))
-        values[0::2], values[1::2] = self._least[places], self._greatest[places]
+        values[0::2] = np.minimum.reduceat(self._least[places], starts)
+        values[1::2] = np.maximum.reduceat(self._greatest[places], starts)
         rest = np.arange(high - high % PIECE, high) % self._most
         return np.concatenate([times, self._times[rest]]), np.concatenate([values, self._values[rest]])
 

@@ -62,17 +62,17 @@ class Trace:
         return np.array([self.samples[place] for place in places]).T
 
 
-CASES = [("ssc1", 1000, 1), ("ssc2", 500, 3), ("dmc1412", 250, 2), ("ssc4", 2000, 1), ("dmc1414", 1000, 4)]
+CASES = [("ssc2", 500, 3), ("dmc1412", 250, 2), ("ssc1", 1000, 1), ("ssc4", 2000, 1), ("dmc1414", 1000, 4)]
 
 
-@pytest.mark.parametrize(("model", "tm", "exponent"), CASES[: count(3, 5)])
+@pytest.mark.parametrize(("model", "tm", "exponent"), CASES[: count(2, 5)])
 def test_values_are_those_of_the_very_samples(model: str, tm: int, exponent: int) -> None:
     rig = moving(model)
     rig.type(f"TM {tm}")
     chosen = (POSITION, COMMANDED, ERROR, TORQUE)[: rig.simulation.model.recorded_channels]
     trace = Trace(rig)
-    found = captured(rig, Plan(chosen, exponent, 120, go="PR 200;BG X"))
-    assert found.complete and found.count == 120
+    found = captured(rig, Plan(chosen, exponent, 60, go="PR 200;BG X"))
+    assert found.complete and found.count == 60
     assert found.interval_s == pytest.approx(2**exponent * tm / 1_024_000)  # a sample is TM ticks of 1/1 024 000 s
     assert np.ptp(found.of(POSITION)) > 100
     np.testing.assert_allclose(found.values, trace.rows(found)[: len(chosen)], atol=1e-9)
@@ -91,15 +91,15 @@ def test_the_141x_records_two_channels_and_no_analog_input() -> None:
 @pytest.mark.parametrize("channel", [COMMANDED, Channel("axis_status", "X")])
 def test_the_begin_of_a_move_is_found_to_the_element(channel: Channel) -> None:
     rig = moving()
-    plan = Plan((POSITION, channel), 1, 400, Trigger(When.MOTION, axis="X", pre=0.4))
+    plan = Plan((POSITION, channel), 1, 280, Trigger(When.MOTION, axis="X", pre=0.4))
     job = capture(rig.controller, plan)
     rig.until(lambda: job.phase.startswith("waiting"))
-    rig.run(1.1)
+    rig.run(0.7)
     rig.type(MOVE)
     found = done(rig, job)
     assert found.early == 0 and found.complete
     place = found.trigger
-    assert 0.25 < place / 400 < 0.75
+    assert 0.2 < place / 280 < 0.8
     row = found.of(channel)
     begun = row != 0 if channel == COMMANDED else (row.astype(int) >> 15 & 1).astype(bool)
     assert begun[place] and not begun[:place].any()
@@ -112,7 +112,7 @@ def test_a_level_and_an_input_are_found_to_the_element() -> None:
         Trigger(When.LEVEL, channel=POSITION, level=700.0, pre=0.5),
         Trigger(When.INPUT, number=3, rising=True, pre=0.5),
     ):
-        job = capture(rig.controller, Plan((POSITION, INPUTS), 1, 400, trigger))
+        job = capture(rig.controller, Plan((POSITION, INPUTS), 1, 280, trigger))
         rig.until(lambda job=job: job.phase.startswith("waiting"))
         rig.run(0.4)
         rig.type(MOVE)
@@ -131,7 +131,7 @@ def test_a_level_and_an_input_are_found_to_the_element() -> None:
 
 def test_where_no_channel_shows_the_trigger_it_says_how_unsure_it_is() -> None:
     rig = moving()
-    job = capture(rig.controller, Plan((POSITION,), 1, 600, Trigger(When.MOTION, axis="X", pre=0.4)))
+    job = capture(rig.controller, Plan((POSITION,), 1, 300, Trigger(When.MOTION, axis="X", pre=0.4)))
     rig.until(lambda: job.phase.startswith("waiting"))
     rig.run(0.5)
     rig.type(MOVE)

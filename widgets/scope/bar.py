@@ -174,6 +174,7 @@ class Bar(QWidget):
             small.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             small.setProperty("role", "control")
             small.setFixedWidth(look().space["control"] + 8)
+            small.setStyleSheet("padding: 0;")  # as narrow as that, the usual padding would leave the icon no room
         for switch in (self.live, self.cursors, self.sides_left, self.sides_right):
             switch.setCheckable(True)
         self.capture.setProperty("role", "primary")

@@ -17,6 +17,7 @@ from widgets.parts.look import look
 from widgets.parts.plot import Plot
 
 FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
+WAY = 60  # heights of the picture that a smooth curve may go up and down
 FADED = 90  # opacity of an overlaid curve, of 255
 NAMES = ("A", "B")
 
@@ -70,13 +71,21 @@ class Strip(Plot):
             self.addItem(self.items[-1])
             self._pens.append(())
         for place, (item, line) in enumerate(zip(self.items, lines, strict=True)):
-            smooth = len(line.x) <= FEW
+            smooth = _smooth(line.y)
             looks = (line.colour.rgba(), line.dashed, line.faded, smooth)
             if looks != self._pens[place]:
                 self._pens[place] = looks
                 item.setPen(_pen(line, smooth))
                 item.setZValue(-1 if line.faded else 0)
             item.setData(line.x, line.y, antialias=smooth, skipFiniteCheck=True, connect="all")
+
+
+def _smooth(y: NDArray[np.float64]) -> bool:
+    """Whether a curve is drawn with soft edges: those of a long way up and down would take too long."""
+    if not 1 < len(y) <= FEW:
+        return len(y) < 2
+    height = float(np.ptp(y))
+    return height == 0 or float(np.abs(np.diff(y)).sum()) <= WAY * height
 
 
 def _pen(line: Line, smooth: bool) -> Any:

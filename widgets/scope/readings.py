@@ -79,14 +79,17 @@ class Readings(QTableWidget):
         self.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.horizontalHeader().setHighlightSections(False)
         self._heads: list[tuple[str, str]] = []
+        self._kind: tuple[object, ...] = ()
 
     def show_columns(
         self, columns: Sequence[Column], cursors: Sequence[float] | None, shown: tuple[float, float]
     ) -> None:
         """`cursors` are the places of A and B, None without them; then what is `shown` is measured."""
         heads = [(column.label, column.colour.name()) for column in columns]
-        fresh = heads != self._heads
-        if fresh:
+        spectral = any(column.peak is not None for column in columns)
+        kind = (tuple(heads), spectral, cursors is None)
+        fresh, self._kind = kind != self._kind, kind
+        if heads != self._heads:
             self._heads = heads
             self.setColumnCount(len(columns))
             for place, (label, colour) in enumerate(heads):
@@ -101,7 +104,6 @@ class Readings(QTableWidget):
                 self._write(row, place, text)
         for row in range(3):
             self.setRowHidden(row, cursors is None)
-        spectral = any(column.peak is not None for column in columns)
         for name in OF_TIME:
             self.setRowHidden(ROWS.index(name), spectral)
         self.setRowHidden(len(ROWS) - 1, not spectral)
