@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from concurrent.futures import Future
+from dataclasses import replace
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ from app.run import Ask, Run
 from app.session import Session
 from app.tick import Tick, failure_of
 from app.tuner_book import Book
+from app.tuner_model import Modelling
 from codegen.fields import Dimension
 from device.api import Controller, Kind, State
 from widgets.display.readings import unit_of
@@ -25,10 +27,8 @@ from widgets.tuner.asked import UNSURE, VELOCITY, Asked, Judged
 from widgets.tuner.panel import AUTOMATIC, MODEL, TunerPanel
 
 if TYPE_CHECKING:
-    from app.tuner_maths import Proposal
     from device.download import Job
     from device.tuning.bench import Excited, Found, Measured, Wish
-    from device.tuning.identify import Estimate
     from device.tuning.loop import Gains
     from device.tuning.run import Present
     from widgets.tuner.plots import Curve
@@ -60,14 +60,13 @@ class Tuner(QObject):
         self._panel, self._ask, self._careful, self._now = panel, ask, careful, now
         self.folder, self._book = folder, book
         self.job: Job[Any] | None = None
-        self.estimate: Estimate | None = None
-        self.proposal: Proposal | None = None
-        self._excited: Excited | None = None
         self._present: Present | None = None
         self._drawn: list[Curve] = []
         self._trials: list[tuple[Measured, str]] = []
         self._shown_trials = 0
+        self._reading = False
         self._since = -math.inf  # what was read before this moment is from before a run
+        self.model = Modelling(tick, panel, self._excite, self._show_running, self._ended, self)
         panel.judge = self.judge
         panel.axis_chosen.connect(self._axis_chosen)
         panel.start_wanted.connect(self._start)
@@ -75,7 +74,6 @@ class Tuner(QObject):
         panel.use_wanted.connect(self._use)
         panel.burn_wanted.connect(self._burn)
         panel.zero_wanted.connect(self._zero)
-        panel.target_wanted.connect(self._design)
         panel.predicted_wanted.connect(self._run_predicted)
         panel.page_opened.connect(lambda _page: self._join_pages())
         connection.changed.connect(lambda _controller: self._another())
@@ -116,7 +114,7 @@ class Tuner(QObject):
     # ---- runs
 
     def _start(self, page: int, asked: Asked) -> None:
-        begin = {AUTOMATIC: self._automatic, MODEL: self._identify}.get(page, self._step)
+        begin = {AUTOMATIC: self._automatic, MODEL: self.model.identify}.get(page, self._step)
         self._careful("Tune", partial(begin, asked))
 
     def cancel(self) -> None:
@@ -138,26 +136,18 @@ class Tuner(QObject):
         if asked.drive != UNSURE:
             self._search(asked, asked.drive == VELOCITY)
             return
-        self._panel.automatic.show_result("First the axis is asked by a small excitation what mode its drive is in.")
-        self._excite(asked, lambda excited: self._recognise(asked, excited))
+        automatic = self._panel.automatic
+        automatic.show_result("First the axis is asked by a small excitation what mode its drive is in.")
 
-    def _recognise(self, asked: Asked, excited: Excited) -> None:
-        from app.tuner_maths import estimated, in_background
-        from device.tuning.identify import Estimate
-
-        def done(future: Future[Any]) -> None:
-            self._ended()
-            found = None if failure_of(future) else future.result()
-            if not isinstance(found, Estimate):
+        def told(velocity: bool | None) -> None:
+            if velocity is None:
                 words = "The drive's mode could not be found out; choose it in the field Drive mode."
-                self._panel.automatic.show_result(words, good=False)
+                automatic.show_result(words, good=False)
                 self._panel.show_result(words, good=False)
                 return
-            self.estimate, self._excited = found, excited
-            self._search(asked, found.plant.velocity_mode)
+            self._search(asked, velocity)
 
-        self._show_running("Working out the drive's mode…")
-        self._tick.when_done(in_background(partial(estimated, excited)), done)
+        self.model.recognise(asked, told)
 
     def _search(self, asked: Asked, velocity: bool) -> None:
         from device.tuning.run import run_automatic
@@ -184,91 +174,18 @@ class Tuner(QObject):
         if best is not None:
             self._keep(best, "automatic", found.words)
 
-    def _identify(self, asked: Asked) -> None:
-        self._excite(asked, partial(self._work_out, asked))
-
     def _excite(self, asked: Asked, then: Callable[[Excited], None]) -> None:
         from device.tuning.run import run_excitation
 
         job = run_excitation(self._connection.controller, self.wish(asked), self.folder, self._now())
         self._begin(job, f"Exciting {asked.axis}", then)
 
-    def _work_out(self, asked: Asked, excited: Excited) -> None:
-        from app.tuner_maths import estimate_words, estimated, in_background
-        from device.tuning.identify import Estimate
-
-        def done(future: Future[Any]) -> None:
-            self._ended()
-            failure = failure_of(future)
-            found = None if failure else future.result()
-            if not isinstance(found, Estimate):
-                self._panel.model.show_estimate(failure or found.reason, good=False)
-                self._panel.show_result("The axis was not identified.", good=False)
-                return
-            self.estimate, self._excited = found, excited
-            self._panel.model.show_estimate(estimate_words(found))
-            self._panel.show_result("")
-            self._propose(None, asked)
-
-        self._show_running("Working out what the axis is…")
-        self._tick.when_done(in_background(partial(estimated, excited)), done)
-
-    def _design(self, crossover: float, phase: float) -> None:
-        from device.tuning.design import Target
-
-        if self.estimate is not None:
-            self._propose(Target(crossover, phase), self._panel.asked)
-
-    def _propose(self, target: Any, asked: Asked) -> None:
-        from app.tuner_maths import in_background, proposed
-
-        assert self.estimate is not None and self._excited is not None
-        excited = self._excited
-        work = partial(
-            proposed, self.estimate, target, excited.period, excited.gains, asked.step, min(asked.seconds, 1.0)
-        )
-        self._tick.when_done(in_background(work), self._proposed)
-
-    def _proposed(self, future: Future[Any]) -> None:
-        failure, model, panel = failure_of(future), self._panel.model, self._panel
-        if failure:
-            model.show_design(None, None, failure)
-            return
-        proposal: Proposal = future.result()
-        self.proposal = proposal
-        if proposal.target is not None:
-            model.show_target(proposal.target.crossover, proposal.target.phase)
-            if panel.bode_plot is not None:
-                panel.bode_plot.show_target(proposal.target.crossover, proposal.target.phase)
-        if panel.bode_plot is not None:
-            panel.bode_plot.show_bode(proposal.bode, proposal.margins)
-        model.show_usable(True)
-        model.show_design(proposal.gains, proposal.margins, proposal.words)
-        if proposal.gains is not None:
-            panel.manual.gains.show_gains(proposal.gains)
-            self._draw_predicted()
-
-    def _draw_predicted(self) -> None:
-        from device.tuning.metrics import measure
-        from widgets.tuner.plots import Curve
-
-        proposal = self.proposal
-        if proposal is None or proposal.predicted is None or proposal.gains is None:
-            return
-        found = measure(proposal.predicted, proposal.gains.torque_limit)
-        curve = Curve(proposal.predicted, "Predicted", predicted=True)
-        self._panel.show_curves(
-            [*self._drawn[-1:], curve], None if isinstance(found, str) else found, proposal.gains.torque_limit
-        )
-
     def _run_predicted(self, asked: Asked) -> None:
         """The step with the proposed gains, measured and laid over its prediction."""
-        proposal = self.proposal
-        if proposal is None or proposal.gains is None:
-            return
-        gains = proposal.gains
-        wanted = Asked(asked.axis, asked.step, gains, asked.torque, asked.seconds, asked.drive)
-        self._careful("Tune", lambda: self._run_step(wanted, "model", self._measured))
+        proposal = self.model.proposal
+        if proposal is not None and proposal.gains is not None:
+            wanted = replace(asked, gains=proposal.gains)
+            self._careful("Tune", lambda: self._run_step(wanted, "model", self._measured))
 
     # ---- what came of it
 
@@ -282,26 +199,16 @@ class Tuner(QObject):
         from widgets.tuner.plots import Curve
 
         self._book.last = measured
-        curves = [Curve(measured.response, gains_words(measured.gains))]
-        if method == "model" and self.proposal is not None and self.proposal.predicted is not None:
-            curves.insert(0, Curve(self.proposal.predicted, "Predicted", predicted=True, quiet=True))
-        else:
-            curves = [*self._drawn[-MOST_DRAWN + 1 :], *curves]
+        curve = Curve(measured.response, gains_words(measured.gains))
+        before = self.model.predicted if method == "model" else tuple(self._drawn[-MOST_DRAWN + 1 :])
         self._drawn = [*self._drawn, Curve(measured.response, gains_words(measured.gains), quiet=True)][-MOST_DRAWN:]
-        self._panel.show_curves(curves, measured.metrics, measured.gains.torque_limit)
+        self._panel.show_curves((*before, curve), measured.metrics, measured.gains.torque_limit)
         entry = Entry(
             0, self._now().isoformat(timespec="seconds"), measured.axis, method, measured.gains, measured.step,
-            measured.response, measured.metrics, words, self._estimate_data(method),
+            measured.response, measured.metrics, words, self.model.data() if method == "model" else {},
             controller=self._connection.controller.who,
         )  # fmt: skip
         self._book.add(entry)
-
-    def _estimate_data(self, method: str) -> dict[str, float | str]:
-        if method != "model" or self.estimate is None:
-            return {}
-        from app.tuner_maths import estimate_data
-
-        return estimate_data(self.estimate)
 
     def _zero(self) -> None:
         """The graph is empty; the next step is drawn from 0."""
@@ -389,6 +296,7 @@ class Tuner(QObject):
     def look(self) -> None:
         """With each tick: how far it is, and the trials that have come."""
         self._show_trials()
+        self.model.look()
         job = self.job
         if job is not None and not job.future.done() and job.phase not in ("waiting", "") and not job.cancelled:
             share = f", {job.fraction:.0%}" if job.total else ""
@@ -396,8 +304,6 @@ class Tuner(QObject):
         state = self._connection.controller.state
         if self._present is None and self._panel.isVisible() and state is State.READY and not self._reading:
             self.read_present()
-
-    _reading = False
 
     def _show_trials(self) -> None:
         from device.tuning.entry import gains_words
@@ -414,11 +320,8 @@ class Tuner(QObject):
 
     def _axis_chosen(self, axis: str) -> None:
         self._drawn.clear()
-        self.estimate = self.proposal = self._excited = None
+        self.model.forget()
         self._panel.show_curves([], None, 10.0)
-        self._panel.model.show_usable(False)
-        if self._panel.bode_plot is not None:
-            self._panel.bode_plot.show_bode(None, None)
         self._join_pages()
         self.read_present(into_fields=True)
 
@@ -433,7 +336,8 @@ class Tuner(QObject):
     def _another(self) -> None:
         """Another controller: what was known belongs to the one before."""
         self._since = -math.inf
-        self.estimate = self.proposal = self._excited = self._present = None
+        self.model.forget()
+        self._present = None
         if self._joined:
             self._panel.show_present(None)
             self._book.refresh()
@@ -446,6 +350,7 @@ class Tuner(QObject):
         if controller.kind is Kind.OFFLINE or controller.state is not State.READY or self.job is not None:
             return
         self._reading = True
+        typed = self._panel.manual.gains.texts if into_fields else ()
 
         def done(future: Future[Any]) -> None:
             self._reading = False
@@ -453,7 +358,7 @@ class Tuner(QObject):
                 return
             self._present = future.result()
             self._panel.show_present(future.result().gains)
-            if into_fields:
+            if into_fields and typed == self._panel.manual.gains.texts:  # nobody has typed meanwhile
                 self._panel.manual.gains.show_gains(future.result().gains)
 
         self._tick.when_done(read_present(controller, axis), done)

@@ -1,9 +1,7 @@
-"""The tuner's mathematics in a thread of its own, so that neither the window nor the line waits for it."""
+"""The tuner's mathematics, as `app.tuner_model` runs it in a thread of its own, and its results in words."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -29,14 +27,6 @@ class Proposal:
     bode: Bode | None
     predicted: Response | None
     words: str
-
-
-def in_background(call: Callable[[], T]) -> Future[T]:
-    """Begins at once; whoever asked is told by the tick."""
-    pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="tuner")
-    future = pool.submit(call)
-    pool.shutdown(wait=False)
-    return future
 
 
 def estimated(excited: Excited) -> Estimate | NotIdentified:

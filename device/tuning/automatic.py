@@ -187,7 +187,7 @@ def _stiffer(best: Best) -> Generator[Trial, Seen, None]:
 def _more_stiffness(best: Best, at: Gains, seen: Seen) -> Generator[Trial, Seen, bool]:
     """KP up in steps with this KD, while that helps; whether anything became better."""
     improved = False
-    while seen.overshoot <= WANTED_OVERSHOOT or seen.settled == float("inf"):
+    while seen.overshoot <= WANTED_OVERSHOOT:
         kp = grain("kp", max(at.kp * KP_FACTOR, at.kp + 1.0))
         if kp > at.kd / 4 or kp <= at.kp:  # l.885: typically not greater than KD/4
             break

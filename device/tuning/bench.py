@@ -153,8 +153,7 @@ class Bench:
         gains = self._with_limits(gains)
         plan = self._plan(seconds, values, f"IP {at(self.axis, counts)}")
         yield from self._jog(gains)
-        capture = yield from capture_steps(self.c, plan, self._inner(), during=self._calm_after(plan))
-        self._check()
+        capture = yield from self._captured(plan)
         response = self._response(capture, counts)
         metrics = measure(response, gains.torque_limit)
         swings = vibrates(response, gains.torque_limit)
@@ -198,7 +197,7 @@ class Bench:
             return Excited(wanted, sample, gains)
         plan = Plan(tuple(Channel(name, self.axis) for name in CHANNELS[:several]), wanted.exponent, wanted.elements)
         yield from self._jog(gains)
-        capture = yield from capture_steps(self.c, plan, self._inner(), during=self._calm_after(plan, wanted))
+        capture = yield from self._captured(plan, wanted)
         return Excited(self._recording(capture, gains, wanted), sample, gains)
 
     # ---- inside
@@ -212,6 +211,16 @@ class Bench:
         not_stopped(self.c, self.began)
         if self.job.cancelled:
             raise Cancelled(f"Cancelled. The former values of axis {self.axis} are back.")
+
+    def _captured(self, plan: Plan, wanted: Excitation | None = None) -> Steps[Capture]:
+        """The record; a STOP or a cancel while it is read ends the run as well."""
+        try:
+            capture = yield from capture_steps(self.c, plan, self._inner(), during=self._calm_after(plan, wanted))
+        except LinkError:
+            self._check()
+            raise
+        self._check()
+        return capture
 
     def _inner(self) -> CaptureJob:
         """A recording's own job: its progress is ours, and so is a cancel."""

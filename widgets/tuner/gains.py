@@ -90,6 +90,11 @@ class GainsBox(QWidget):
         return next((wrong for name in NAMES if (wrong := problem_of(name, self.fields[name].text()))), "")
 
     @property
+    def texts(self) -> tuple[str, ...]:
+        """As typed."""
+        return tuple(field.text() for field in self.fields.values())
+
+    @property
     def gains(self) -> Gains:
         """As typed, at the controller's resolution; the last good ones while a field is wrong."""
         if self.problem:

@@ -20,7 +20,7 @@ STEP = 400
 def connected(address: str) -> Controller:
     """In Control, and asked who it is."""
     controller = Controller.connect(address, LineSettings(baud=BAUD), kind=Kind.MACHINE)
-    end = time.monotonic() + 20
+    end = time.monotonic() + 60
     while controller.state is not State.READY and time.monotonic() < end:
         time.sleep(0.01)
     controller.take_control()

@@ -48,9 +48,9 @@ def one(folder: Path, seed: int) -> bool:
     folder.mkdir()
     with SimulatorProcess("ssc2", baud=BAUD, pty=True) as machine:
         before = connected(machine.address)
-        before.ask("SH X").result(5)
+        before.ask("SH X").result(30)
         for name, value in FORMER.items():
-            assert before.ask(f"{name}X={value:g}").result(5).accepted
+            assert before.ask(f"{name}X={value:g}").result(30).accepted
         before.close()
         live_and_die(machine, folder, seed)
         stays(machine)
@@ -88,12 +88,12 @@ def recovered(controller: Controller, folder: Path) -> bool:
         assert left and there["OE"] == 1 and there["ER"] <= ERROR and there["FL"] <= FURTHEST
     if left:
         assert {name: left[0].values[name] / ONE for name in FORMER} == FORMER
-        assert "KP 7, KI 0.5, KD 70" in put_back(controller, left[0]).result(20)
+        assert "KP 7, KI 0.5, KD 70" in put_back(controller, left[0]).result(60)
     assert held(controller) == FORMER
     assert left_behind(folder) == ()
     return bool(left)
 
 
 def held(controller: Controller) -> dict[str, float]:
-    values = controller.read(*(f"_{name}X" for name in FORMER)).result(20)
+    values = controller.read(*(f"_{name}X" for name in FORMER)).result(60)
     return dict(zip(FORMER, values, strict=True))
