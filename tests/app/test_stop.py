@@ -136,6 +136,12 @@ def _scope(stage: Stage) -> QWidget:
     return stage.studio.at_machine.curves.body.choices.count
 
 
+def _tuner(stage: Stage) -> QWidget:
+    stage.studio.actions["tune"].trigger()
+    stage.go()
+    return stage.studio.at_machine.tuning.panel.manual.gains.fields["KP"]
+
+
 def _floating(stage: Stage) -> QWidget:
     stage.studio.window.docks["Display"].setFloating(True)
     stage.go()
@@ -162,6 +168,7 @@ PLACES: dict[str, Callable[[Stage], QWidget]] = {
     "the answer to a program": _prompt,
     "a floating panel": _floating,
     "the scope": _scope,
+    "the tuner": _tuner,
 }
 
 
