@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 20.0)
 CATCH_UP_S = 3.0  # so much before a place is worked off at once, so that every value is there
 FRAMED = re.compile(r"MG\{\^30\},\"([a-z0-9]{2})\"(.*),\{\^31\}$")
+ENTERS = re.compile(r"MG\{\^30\},\"([a-z0-9]{2})\",\{\^31\};(DL)$")  # a download proves its DL
 ITEM = re.compile(r",([^{}]+)\{F(\d+)\.(\d+)\}")
 CONTROLLER, LISTING, NOTICE, DID = "controller", "listing", "notice", "did"  # kinds of notes
 
@@ -158,7 +159,7 @@ class Heard:
             self._c.link.note(">", text, "download")
             return
         expected, keys = expected_of(line)
-        shown = FRAMED.sub("", text).rstrip(";")
+        shown = ENTERS.sub(r"\2", FRAMED.sub("", text).rstrip(";"))
         self._program = shown == "DL"
         self._entry = "" if not shown else text
         self._keys = keys
@@ -220,17 +221,20 @@ def expected_of(line: bytes) -> tuple[Expectation | None, tuple[str, ...]]:
     text = line.decode("ascii", "replace").rstrip("\r")
     if line.startswith((b"\x11", b"!")):  # a stop from any state: nobody waited for its prompts
         return None, ()
+    found = ENTERS.match(text)
+    if found is not None:
+        return Frame(found[1], ()), ()
     found = FRAMED.search(text)
     if found is None:
         statements = parse_line(text).statements
         names = [each.name for each in statements if isinstance(each, nodes.Command)]
         return (Upload() if "UL" in names or "QU" in names else Prompts(max(len(statements), 1))), ()
     items = ITEM.findall(found[2])
-    if found.start() == 0:
+    before = [each for each in parse_line(text[: found.start()]).statements if not isinstance(each, nodes.Nothing)]
+    if items or not before:
         shapes = tuple(Shape(int(digits), int(decimals)) for _, digits, decimals in items)
         keys = tuple(KEYS.get(expression, "") for expression, _, _ in items)
-        return Frame(found[1], shapes), keys if all(keys) else ()
-    before = [each for each in parse_line(text[: found.start()]).statements if not isinstance(each, nodes.Nothing)]
+        return Frame(found[1], shapes, len(before)), keys if all(keys) else ()
     return Proof(found[1], len(before)), ()
 
 

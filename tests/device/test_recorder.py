@@ -20,11 +20,12 @@ from device.recorder import Recorder
 from device.recorder_format import MARK, Flag, Packer, Record, What, find_blocks
 from device.recorder_play import CONTROLLER, LISTING, NOTICE, expected_of, facts_of, replayed
 from device.recorder_read import Recording, RecordingUnreadable, joined, open_recording
+from device.simulator.loops import loop_for
 from device.tasks import NotAllowed
 from device.transport import ONLY_WATCHED, LineSettings, Transport, TransportLost
 from device.transport.replay import Replay
 from device.wire import Frame, Proof, Revision, Shape
-from tests.long import count, record
+from tests.long import count, is_long, record
 from tests.rig import Rig
 
 Bytes = list[tuple[float, What, bytes]]
@@ -138,10 +139,13 @@ def same(one: Bytes, other: Bytes) -> None:
 PROGRAM = "\n".join(["#A", "SH X", "#L", "PR 500;SP 20000;BG X;AM X", 'MG "PART ",N', "N=N+1", "JP #L", "EN"])
 
 
+@pytest.mark.timeout(3600)
 def test_a_recorded_while_replays_byte_for_byte(tmp_path: Path) -> None:
     """With a program that moves and talks, by the line's own time (long: an hour)."""
-    seconds = count(25, 3600)
+    seconds = count(15, 3600)
     tape = Taped(tmp_path, line=LineSettings(baud=19200))
+    if is_long():
+        tape.rig.simulation.motion.use(loop_for(True))
     tape.rig.controller.watch("all", ("position.x", "error.x", "moving.x", "inputs", "outputs", "switches.x"))
     tape.rig.start(PROGRAM)
     tape.go(seconds)
@@ -454,6 +458,8 @@ def test_the_thread_writes_by_itself_and_ends(tmp_path: Path) -> None:
         ),
         (b'MG{^30},"aa",_BN{F10.0},{^31}\r', Frame("aa", (Shape(10, 0),)), ()),
         (b'PR 500;SP 200;MG{^30},"b1",{^31}\r', Proof("b1", 2), ()),
+        (b'IP 50;MG{^30},"b2",_RPX{F10.0},{^31}\r', Frame("b2", (Shape(10, 0),), 1), ("commanded.x",)),
+        (b'MG{^30},"b3",{^31};DL\r', Frame("b3", ()), ()),
         (b"\x12\x16", Revision(), ()),
         (b"\x11\x1b\\ST\rST\r", None, ()),
     ],
