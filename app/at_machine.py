@@ -72,6 +72,7 @@ class AtMachine:
             studio.now, studio,
         )  # fmt: skip
         self.pads.add(self.table)
+        self.ghosts.sources.append(self.teach.play.ghost)
         self.event_list.line_wanted.connect(studio.ear.reveal)
         self.operator.tap = lambda opener: studio.recorder.channel().tap(opener)
         self.operator.tap = lambda opener: studio.recorder.channel().tap(opener)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from functools import partial
 from typing import Any
@@ -22,11 +22,10 @@ from device.teach_actions import actions_of, ends_of
 from widgets.teach.panel import TeachPanel
 
 OWNER = "teach"
-ENDED = "Play-back was stopped."
 
 
 class TeachPlay(QObject):
-    """`path_wanted` is called with the table while it plays, and with nothing behind it."""
+    """Asks, undertakes, shows what it does and how it ended."""
 
     def __init__(
         self,
@@ -106,6 +105,10 @@ class TeachPlay(QObject):
         failure = failure_of(future)
         done = None if failure else future.result()
         self._panel.show_result(failure or done.sentence, good=not failure)
+
+    def ghost(self) -> Mapping[str, int]:
+        """Where the move on its way ends, for the marks of other panels."""
+        return self.playing.end if self.playing is not None else {}
 
     def _next(self) -> None:
         if self.playing is not None:

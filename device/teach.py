@@ -112,6 +112,7 @@ class PlayBack(Going):
     row: int = -1
     doing: str = ""
     holds: bool = False  # waits for `go_on`
+    end: Mapping[str, int] = field(default_factory=dict)  # of the move that is on its way, counts
     _wanted: bool = False
     _sequence: bool = False
     _sent: dict[str, str] = field(default_factory=dict)  # speeds and ramps along the path, as they were sent last
@@ -227,6 +228,7 @@ class PlayBack(Going):
 
     def _move(self, row: int, move: Move) -> Steps[None]:
         self.doing = f"Row {row + 1} moves."
+        self.end = dict(zip(AXES, move.end, strict=True))
         commands = [each for each in move.commands if self._new(each)]
         for line in self.exchange.packed(commands):
             if self.released:
@@ -234,7 +236,7 @@ class PlayBack(Going):
             self._sequence = move.sequence
             yield from self._taken(row, line)
         yield from self._ended(row, ["_BGS"] if move.sequence else [f"_BG{letter}" for letter in AXES])
-        self._sequence = False
+        self._sequence, self.end = False, {}
         if not self.released:
             yield from self._arrived(row, move)
 

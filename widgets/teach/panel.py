@@ -34,6 +34,7 @@ ONE_AXIS = "Teaching needs two axes; this controller has one."
 JOYSTICK, SCREEN, PAD = "joystick", "stick", "pad"
 SOURCES = {JOYSTICK: "Joystick at the controller", SCREEN: "Stick on the screen", PAD: "Gamepad"}
 PLACES = ("commanded.x", "commanded.y")
+SHOWN = ("position.x", "position.y")
 ENDS = {
     NoticeKind.STOP: "STOP was pressed",
     NoticeKind.LOST: "the connection was lost",
@@ -92,7 +93,8 @@ class TeachPanel(Panel):
     def watches(self) -> tuple[str, ...]:
         if self.parts is None:
             return ()
-        return (*PLACES, *(VOLTS if self.source == JOYSTICK else ()), *(("inputs",) if self.enabled else ()))
+        way = PLACES if self.parts.way.isChecked() else ()
+        return (*SHOWN, *way, *(VOLTS if self.source == JOYSTICK else ()), *(("inputs",) if self.enabled else ()))
 
     @property
     def source(self) -> str:
@@ -139,7 +141,7 @@ class TeachPanel(Panel):
         if self.parts is None or self.setup is None:
             return
         places = []
-        for letter, key in zip("XY", PLACES, strict=True):
+        for letter, key in zip("XY", SHOWN, strict=True):
             axis = self.setup.axis(letter)
             counts = math.nan if row.stale(key, now) else row.value(key)
             places.append(f"{letter} {shown(counts, axis)} {unit_of(axis)}")
@@ -190,7 +192,6 @@ class TeachPanel(Panel):
         """How the last thing ended."""
         set_text(self.result, sentence)
         show_role(self.result, "quiet" if good else "problem")
-        self.result.setVisible(bool(sentence))
 
     def words(self) -> str:
         """What it says, as text."""
@@ -272,4 +273,4 @@ class TeachPanel(Panel):
             label.setWordWrap(True)
             label.setProperty("role", "quiet")
             self._column.addWidget(label)
-        self.result.hide()
+        self.result.setMinimumHeight(self.result.fontMetrics().height())  # nothing moves when it is said

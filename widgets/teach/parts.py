@@ -249,13 +249,13 @@ class Parts(QWidget):
         self._column.addLayout(_row(self.record, self.wait, self.output, self.done))
         self._column.addWidget(self.of_rows)
         self._column.addLayout(_row(self.way, self.io_control))
+        self._column.addLayout(_row(self.how, self.play, self.next, self.halt))
         self._column.addWidget(self.view, 3)
         self.message.setWordWrap(True)
         show_role(self.message, "warning")
         self.message.hide()
         self._column.addWidget(self.message)
         self._column.addLayout(_row(*self.edits.values()))
-        self._column.addLayout(_row(self.how, self.play, self.next, self.halt))
         self._column.addLayout(_row(*self.files.values()))
 
 

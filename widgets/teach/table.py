@@ -142,8 +142,8 @@ class TeachView(QTableView):
         for number, column in enumerate(COLUMNS):
             heading = str(model.headerData(number, Qt.Orientation.Horizontal)).split("\n")
             texts = {shown_text(getattr(row, column)) for row in model.table.rows}
-            widths = [small.horizontalAdvance(text) + 14 for text in heading]
-            widths += [body.horizontalAdvance(text) + 14 for text in texts]
+            widths = [small.horizontalAdvance(text) + 13 for text in heading]
+            widths += [body.horizontalAdvance(text) + 12 for text in texts]
             self.setColumnWidth(number, max(NARROWEST, *widths))
 
     @property
