@@ -189,3 +189,55 @@ def scope_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go(3)
     yield "scope-docked", stage.studio.window
     dock.hide()
+
+
+def teach_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """A glue path that is being played back, the window of Output, a way that was recorded whole."""
+    import dataclasses as dc
+
+    from codegen.setup import Unit
+    from codegen.teach import Row, Table
+    from widgets.parts.question import Question
+    from widgets.teach.entries import OutputEntry
+
+    studio, document = stage.studio, stage.studio.session.document
+    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit="1000", reverse_limit="-50")
+    axis = dc.replace(axis, forward_limit="200")
+    names = ("Glue", "Lamp", *("",) * 6)
+    setup = dc.replace(document.setup, model="ssc2", axes=(axis,) * 4, output_names=names)
+    studio.session.set_document(dc.replace(document, setup=setup), "A glue table")
+    rig = stage.connect("simulator", "ssc2")
+    for number in (1, 2):
+        rig.simulation.stimulus(f"an{number}", 2.5)
+    studio.desk.bring("Teach")
+    stage.go(10)
+    teach, panel = studio.at_machine.teach, studio.at_machine.table
+    pace = {"speed": "40", "acceleration": "512", "deceleration": "512"}
+    corners = (("10", "5"), ("40.25", "5"), ("40.25", "25"), ("25", "31.875"), ("10", "25"), ("10", "5"))
+    rows = [Row(x=x, y=y, **pace) for x, y in corners]
+    rows[1:1] = [Row(output="1")]
+    rows[5:5] = [Row(wait="-3")]
+    teach.change(Table(("mm", "mm"), (*rows, Row(output="0x00"))))
+    assert panel.parts is not None
+    panel.parts.io_control.click()
+    panel.parts.play.click()
+    stage.go(10)
+    asked = studio.window.findChildren(Question)[-1]
+    yield "teach-play", asked
+    asked.buttons["Play back"].click()
+    rig.simulation.stimulus("in3", 1)
+    stage.until(lambda: "waits" in panel.words(), 60)
+    stage.go(5)
+    yield "panel-teach", studio.window
+    panel.parts.halt.click()
+    stage.go(30)
+    panel.parts.output.click()
+    entry = next(each for each in panel.findChildren(OutputEntry) if each.isVisible())
+    stage.go(2)
+    yield "teach-output", entry
+    entry.close()
+    arcs = (Row(x="40", y="20", sweep="120", through="on", **pace), Row(x="20", y="20", pause="500", **pace))
+    teach.change(Table(("mm", "mm"), (Row(x="30", y="10", **pace), *arcs)))
+    stage.go(5)
+    panel.parts.view.go_to(1, 8)
+    yield "panel-teach-way", panel

@@ -155,7 +155,14 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     import dataclasses as dc
 
     from tests.bar_pictures import bar_scenes
-    from tests.panel_pictures import commissioning_scenes, doctor_scenes, event_scenes, replay_scenes, scope_scenes
+    from tests.panel_pictures import (
+        commissioning_scenes,
+        doctor_scenes,
+        event_scenes,
+        replay_scenes,
+        scope_scenes,
+        teach_scenes,
+    )
 
     studio, document = stage.studio, stage.studio.session.document
     axis = dc.replace(document.setup.axes[0], reverse_limit="-5", forward_limit="25")
@@ -176,6 +183,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from doctor_scenes(stage)
     yield from scope_scenes(stage)
     yield from commissioning_scenes(stage)
+    yield from teach_scenes(stage)
     yield from replay_scenes(stage)
 
 
