@@ -7,7 +7,6 @@ is one sentence and the next steps.
 from __future__ import annotations
 
 import errno
-import re
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -16,6 +15,7 @@ from enum import StrEnum
 
 from codegen.models import Model
 from codegen.rates import RATES, setting_words
+from device.doctor_answers import PROMPT, Answered, judged
 from device.doctor_ports import group_of, holders
 from device.door import REVISION, choose
 from device.download import Job
@@ -27,9 +27,6 @@ LISTEN_S = 0.3
 ANSWER_S = 0.7
 TRY_S = 0.35  # for an answer at another speed
 QUIET_S = 0.06  # after a prompt: then it is all
-PROMPT = re.compile(rb"(?:^|[\r\n:?])[:?]$")
-PLAIN = frozenset(range(0x20, 0x7F)) | frozenset(b"\r\n\t\x1a\x1e\x1f")
-FILL = b"\x00\x11\x13"
 SPEEDS = (9600, 19200, 38400, 4800, 1200, 300)
 ADDRESSES = 8  # of a daisy chain (dmc-1412-1414.txt l.1302)
 SHOWN = 40  # characters of a foreign answer
@@ -81,32 +78,6 @@ class Diagnosis:
     def words(self) -> str:
         """The sentence, then the steps, a line each."""
         return "\n".join([self.sentence, *(f"  - {step}" for step in self.steps)])
-
-
-class Answered(StrEnum):
-    """What came back for a carriage return."""
-
-    NOTHING = "nothing"
-    PROMPT = "prompt"
-    ECHO = "echo"
-    TEXT = "text"
-    GARBAGE = "garbage"
-
-
-def judged(came: bytes) -> Answered:
-    """What the answer to a carriage return is; bit 7 may mark text of a program."""
-    kept = came.translate(None, FILL)
-    if not kept:
-        return Answered.NOTHING
-    if kept == b"\r":
-        return Answered.ECHO
-    if PROMPT.search(bytes(byte & 0x7F for byte in kept)) and _plain(bytes(byte & 0x7F for byte in kept)):
-        return Answered.PROMPT
-    return Answered.TEXT if _plain(kept) and len(kept) > 3 else Answered.GARBAGE
-
-
-def _plain(data: bytes) -> bool:
-    return all(byte in PLAIN for byte in data)
 
 
 class Cancelled(Exception):

@@ -16,7 +16,8 @@ import pytest
 from app.cli.calls import call
 from codegen.models import model
 from codegen.rates import JUMPERS, RATES, setting_words
-from device.doctor import Answered, Diagnosis, Doctor, Trouble, examination, judged
+from device.doctor import Diagnosis, Doctor, Trouble, examination
+from device.doctor_answers import Answered, judged
 from device.doctor_ports import group_of, holders
 from device.download import Job
 from device.simulator.process import SimulatorProcess
