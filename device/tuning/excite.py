@@ -14,7 +14,7 @@ LAST = 0.15  # s left for the answer to the last one
 SMALLEST = 4  # counts; smaller jumps drown in the counting
 LEAST_KD = 1.0  # below, the torque does not tell the error between two elements
 HELD_PART = 0.5  # of the torque limit: what KP makes of the largest jump until the axis moves
-KICK_PART = 0.95  # of it: the one sample in which the largest jump appears; cut by the limit it would tell less
+KICK_PART = 0.8  # of it: the one sample in which the largest jump appears; the rest is for weight and motion
 CHANNELS = ("TE", "TT", "TP")
 
 

@@ -12,6 +12,7 @@ from device.tuning.plant import Vector
 
 TORQUE_STEP = 10.0 / 32767.0  # V of a captured _TT (commands.md 4)
 WHOLE = 0.3  # counts; how far from a whole number an error between two elements may come out
+WHOLE_LATE = 0.1  # the same where a torque tells the error of its own sample, which it does more finely
 QUIET = 9  # elements before the first jump
 NEAR = 6  # samples; two jumps lie further apart
 BAD_PART = 0.05  # of them, above which gains and capture do not belong together
@@ -55,8 +56,19 @@ def objection(recording: Recording) -> str | None:
     return None
 
 
-def errors_between(recording: Recording, integral: float) -> tuple[Vector, Vector, int, int]:
-    """Error and integrator of every sample from the first integrator on; how many were unsure, how many did not fit."""
+@dataclass(frozen=True)
+class Errors:
+    """The error of every sample, and what belongs to it."""
+
+    values: Vector  # counts
+    integrals: Vector  # V, offset included
+    torque_at: int  # the first sample whose torque was captured
+    unsure: int  # how many the torque limit hides
+    wrong: int  # how many do not come out as whole numbers
+
+
+def between(recording: Recording, integral: float) -> Errors:
+    """Torque and error of one sample captured together: each torque tells the error of the sample before it."""
     gains, error, volts = recording.gains, recording.error, recording.volts
     count = len(error)
     errors, integrals = numpy.zeros(2 * count - 1), numpy.zeros(2 * count - 1)
@@ -76,18 +88,69 @@ def errors_between(recording: Recording, integral: float) -> tuple[Vector, Vecto
         integrals[2 * n - 1] = integral + 0.5 * gains.ki * missing * VOLTS
         integral = integrals[2 * n - 1] + 0.5 * gains.ki * here * VOLTS
         integrals[2 * n] = integral
-    return errors, integrals, unsure, wrong
+    return Errors(errors, integrals, 0, unsure, wrong)
 
 
-def start(recording: Recording) -> float:
-    """Integrator and offset at the first element: what makes the errors between whole numbers near the others."""
+def between_late(recording: Recording, integral: float) -> Errors:
+    """An error captured as the next sample finds it (the controller reads at the end of a sample).
+
+    Each torque tells the error of its own sample; a jump that comes between the two is not in the captured error yet.
+    """
+    gains, error, volts = recording.gains, recording.error, recording.volts
+    count = len(error)
+    errors, integrals = numpy.zeros(2 * count - 1), numpy.zeros(2 * count - 1)
+    errors[0], integrals[0] = error[0], integral
+    part, most = VOLTS * 0.5 * gains.ki, gains.torque_limit - 2 * TORQUE_STEP
+    whole = VOLTS * 4.0 * (gains.kp + gains.kd) + part
+    hidden = (0, *sorted(set(recording.steps)))
+    unsure = wrong = 0
+    for n in range(1, count):
+        before, behind, torque = float(errors[2 * n - 2]), float(error[n]), float(volts[n])
+        tried = [
+            (torque - integral - part * size + VOLTS * 4.0 * gains.kd * (before + size)) / whole for size in hidden
+        ]
+        fits = [(abs(exact - behind), k) for k, exact in enumerate(tried) if abs(exact - round(exact)) <= WHOLE_LATE]
+        chosen = min(fits)[1] if fits else 0
+        exact = tried[chosen]
+        if abs(torque) >= most:
+            exact, chosen = 2.0 * before - float(errors[max(0, 2 * n - 3)]), 0
+            unsure += 1
+        elif not fits:
+            wrong += 1
+        errors[2 * n - 2] += hidden[chosen]
+        integral += part * hidden[chosen]
+        integrals[2 * n - 2] = integral
+        errors[2 * n - 1], errors[2 * n] = float(round(exact)), behind
+        integrals[2 * n - 1] = integral + part * errors[2 * n - 1]
+        integral = integrals[2 * n - 1] + part * behind
+        integrals[2 * n] = integral
+    return Errors(errors, integrals, 1, unsure, wrong)
+
+
+def start(recording: Recording, late: bool) -> float:
+    """Integrator and offset at the first sample: what makes the errors between whole numbers near the others."""
     gains, error, volts = recording.gains, recording.error[:QUIET], recording.volts[:QUIET]
-    both, last = 4.0 * (gains.kp + gains.kd) + 0.5 * gains.ki, VOLTS * (4.0 * gains.kd - 0.5 * gains.ki)
-    first = float(volts[1] - VOLTS * both * error[1]) + last * float(error[0])
-    errors = errors_between(replace(recording, error=error, volts=volts), first)[0]
+    damping, both = VOLTS * 4.0 * gains.kd, VOLTS * (4.0 * (gains.kp + gains.kd) + 0.5 * gains.ki)
+    if late:
+        one = -both
+        first = float(volts[1]) - both * float(error[0]) + damping * float(error[0])
+    else:
+        one = damping - VOLTS * 0.5 * gains.ki
+        first = float(volts[1]) - both * float(error[1]) + one * float(error[0])
+    quiet = replace(recording, error=error, volts=volts)
+    errors = (between_late(quiet, first) if late else between(quiet, first)).values
     # a whole number too high or too low in all of them is the integrator's part
     apart = errors[1::2] - 0.5 * (errors[:-1:2] + errors[2::2])
-    return first - last * float(numpy.round(numpy.mean(apart)))
+    return first - one * float(numpy.round(numpy.mean(apart)))
+
+
+def every_error(recording: Recording) -> Errors:
+    """The errors of every sample, whichever way the controller reads."""
+    found = between(recording, start(recording, False))
+    if found.wrong <= BAD_PART * len(recording.error):
+        return found
+    late = between_late(recording, start(recording, True))
+    return late if late.wrong < found.wrong else found
 
 
 def jumps(errors: Vector, sizes: tuple[int, ...]) -> list[int] | None:
@@ -108,7 +171,7 @@ def jumps(errors: Vector, sizes: tuple[int, ...]) -> list[int] | None:
 def commanded(recording: Recording, errors: Vector) -> Vector | str:
     """The commanded position of every sample, from its first place; a sentence where the jumps can not be found."""
     if recording.position is not None:
-        even = recording.position + recording.error
+        even = recording.position + errors[::2]
         found = numpy.repeat(even, 2)[: len(errors)].astype(float)
         for n in numpy.flatnonzero(numpy.diff(even)):
             # between the elements: the place that leaves the encoder the smoothest way
@@ -132,27 +195,27 @@ def every_sample(recording: Recording) -> Samples | NotIdentified:
     wrong_from_start = objection(recording)
     if wrong_from_start:
         return NotIdentified("The excitation can not be used: " + wrong_from_start)
-    errors, integrals, unsure, wrong = errors_between(recording, start(recording))
-    count = len(recording.error)
-    if wrong > max(3, BAD_PART * count):
+    found, count = every_error(recording), len(recording.error)
+    if found.wrong > max(3, BAD_PART * count):
         return NotIdentified(
             "The captured torque does not follow from the captured error with "
             f"KP {recording.gains.kp:g}, KI {recording.gains.ki:g} and KD {recording.gains.kd:g}: "
             "these were not the gains, or another loop (dual loop, feed-forward) was at work."
         )
-    if unsure > 0.2 * count:
+    if found.unsure > 0.2 * count:
         return NotIdentified(
             "The torque was at its limit most of the time, as it is when the loop oscillates: "
             "set KP and KD to a quarter and try again."
         )
+    errors = found.values
     places = commanded(recording, errors)
     if isinstance(places, str):
         return NotIdentified("The excitation can not be used: " + places)
     gains, before = recording.gains, numpy.concatenate([errors[:1], errors[:-1]])
-    volts = VOLTS * (4.0 * gains.kp * errors + 4.0 * gains.kd * (errors - before)) + integrals
+    volts = VOLTS * (4.0 * gains.kp * errors + 4.0 * gains.kd * (errors - before)) + found.integrals
     volts = numpy.clip(volts, -gains.torque_limit, gains.torque_limit)
-    volts[::2] = recording.volts
+    volts[found.torque_at :: 2] = recording.volts[found.torque_at :]
     sure = numpy.ones(len(volts), dtype=bool)
-    sure[1::2] = numpy.abs(volts[2::2]) < gains.torque_limit - 2 * TORQUE_STEP
+    sure[1::2] = numpy.abs(recording.volts[1:]) < gains.torque_limit - 2 * TORQUE_STEP
     jumped = tuple(int(i) + 1 for i in numpy.flatnonzero(numpy.diff(places)))
     return Samples(recording.period, volts, places - errors, jumped, sure)

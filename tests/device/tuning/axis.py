@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
+from device.simulator.motion import Register
 from device.simulator.plant import Plant
 from device.tuning.excite import Excitation, NotIdentified, excitation
 from device.tuning.loop import Gains
@@ -21,8 +22,10 @@ FAST = 67_107_840  # counts/s², the largest AC
 class Axis:
     """X of a controller with this machine; off-on-error is on."""
 
-    def __init__(self, plant: Plant, model: str = "ssc1") -> None:
+    def __init__(self, plant: Plant, model: str = "ssc1", late: bool = False) -> None:
         self.bench = Bench(model, {"X": plant})
+        if late:  # TP and TE as they are at the end of a sample
+            self.bench.simulation.motion.set(0, Register.READ_LATE, 1.0)
         self.channels = self.bench.simulation.model.recorded_channels
         self.gains = Gains()
         self.rows: NDArray[numpy.float64] = numpy.zeros((0, 7))
