@@ -13,8 +13,7 @@ from device.tuning.metrics import Response
 from device.tuning.recording import TORQUE_STEP, Recording
 from tests.device.simulator.bench import Bench
 
-PERIOD = 1 / 1024  # s at TM 1000
-MS_A_SAMPLE = 1000 / 1024
+PERIOD = 1 / 1024  # s at TM 1000 (commands.md 7)
 ERROR_LIMIT = 16384  # counts, the factory's ER
 FAST = 67_107_840  # counts/s², the largest AC
 
@@ -22,14 +21,15 @@ FAST = 67_107_840  # counts/s², the largest AC
 class Axis:
     """X of a controller with this machine; off-on-error is on."""
 
-    def __init__(self, plant: Plant, model: str = "ssc1", late: bool = False) -> None:
+    def __init__(self, plant: Plant, model: str = "ssc1", late: bool = False, tm: int = 1000) -> None:
         self.bench = Bench(model, {"X": plant})
         if late:  # TP and TE as they are at the end of a sample
             self.bench.simulation.motion.set(0, Register.READ_LATE, 1.0)
         self.channels = self.bench.simulation.model.recorded_channels
         self.gains = Gains()
         self.rows: NDArray[numpy.float64] = numpy.zeros((0, 7))
-        for line in ("OE1", f"ER{ERROR_LIMIT}", "SH"):
+        self.period = tm / 1_024_000  # s (commands.md 7)
+        for line in (f"TM{tm}", "OE1", f"ER{ERROR_LIMIT}", "SH"):
             self.bench.ask(line)
         self.bench.wait(1500)
 
@@ -77,7 +77,7 @@ class Axis:
         self.bench.ask("STX")
         self.bench.wait(500)
         return Recording(
-            PERIOD,
+            self.period,
             2**plan.exponent,
             self.gains,
             found["TE"],
@@ -88,7 +88,7 @@ class Axis:
 
     def excite(self, travel: int, elements: int = 1000, seed: int = 0) -> Recording:
         """An excitation with the gains in effect."""
-        plan = excitation(self.gains, travel, elements, min(3, self.channels), PERIOD, seed)
+        plan = excitation(self.gains, travel, elements, min(3, self.channels), self.period, seed)
         assert not isinstance(plan, NotIdentified), plan.reason
         return self.excited(plan)
 
@@ -105,4 +105,4 @@ class Axis:
         self.rows = self.bench.simulation.motion.trace_rows().copy()  # every sample, as the simulator knows it
         found = self.captured(elements, channels)
         volts = found.get("TT", numpy.zeros(elements)) * TORQUE_STEP
-        return Response(2 * PERIOD, found["SH"] - begin, found["TP"] - begin, volts)
+        return Response(2 * self.period, found["SH"] - begin, found["TP"] - begin, volts)

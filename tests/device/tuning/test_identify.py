@@ -146,6 +146,16 @@ def test_inertia_friction_weight_and_delay(name: str, model: str) -> None:
     assert abs(found.plant.gain - gain_of(plant)) < 6 * found.sigma["gain"] + 0.005 * gain_of(plant)
 
 
+@pytest.mark.parametrize("tm", [500, 2000])
+def test_other_sample_times(tm: int) -> None:
+    plant = rigid(3, 2000, delay_samples=2)
+    axis = Axis(plant, tm=tm)
+    axis.set(Gains(kp=6, kd=64 * 1000 / tm))
+    found = told(axis.excite(200, 500))
+    assert found.plant.gain == pytest.approx(gain_of(plant), rel=0.02)
+    assert found.plant.delay == pytest.approx(2 * axis.period, abs=0.15 * axis.period)
+
+
 @pytest.mark.parametrize(
     ("plant", "hertz", "ratio"),
     [
