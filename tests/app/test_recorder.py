@@ -10,11 +10,12 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QApplication, QPushButton
 
 from device.api import Kind, State, StopState
 from device.recorder_play import DID
 from device.recorder_read import Recording, joined
+from tests.long import is_long
 from tests.stage import Stage, make_studio
 from widgets.recorder.panel import EMPTY, RecorderPanel
 
@@ -52,6 +53,19 @@ def replay(stage: Stage) -> None:
     stage.go()
     QTest.mouseClick(panel_of(stage).replay, LEFT)
     wait(stage, lambda: stage.controller.kind is Kind.REPLAY and stage.controller.state is State.READY)
+
+
+def press_everything(stage: Stage, title: str) -> None:
+    """Every button of a panel that can be pressed, except those that ask for a file or end the replay."""
+    stage.studio.desk.bring(title)
+    stage.go(3)
+    for button in stage.studio.window.docks[title].content.findChildren(QAbstractButton):
+        name = button.text() or button.accessibleName()
+        others = ("…", "Connect", "Replay", "Open", "Save", "End replay", "simulator")
+        if button.isEnabled() and button.isVisible() and not any(each in name for each in others):
+            QTest.mouseClick(button, LEFT)
+            stage.go(1)
+            assert stage.controller.kind is Kind.REPLAY, (title, name)
 
 
 def done(stage: Stage) -> list[str]:
@@ -96,6 +110,8 @@ def test_nothing_is_sent_and_there_is_nothing_to_stop(stage: Stage) -> None:
     studio.terminal.line.setText("PR 100")
     QTest.mouseClick(studio.terminal.send, LEFT)
     wait(stage, lambda: "recording" in studio.terminal.log.toPlainText())
+    for title in studio.window.docks if is_long() else ("Display", "Jog", "Variables"):
+        press_everything(stage, title)
     QTest.keyClick(studio.window, Qt.Key.Key_F12)
     wait(stage, lambda: any("There is nothing to stop" in text for text in studio.messages.texts()))
     assert len(rig.loopback.written) == closed and stage.controller.stop_state is StopState.NO_LINK

@@ -70,7 +70,7 @@ class EventsPanel(Panel):
         self._setup: Setup | None = None
         self._told: tuple[object, ...] = ()
         self.search, self.kind = QLineEdit(), QComboBox()
-        self.bundle, self.words_, self.more = QPushButton("Service bundle…"), QLabel(EMPTY), QPushButton("Help on it")
+        self.bundle, self.words_, self.more = QPushButton("Service bundle…"), QLabel(EMPTY), QPushButton("More help")
         self.table = QTableWidget(0, len(COLUMNS))
         self.rows: tuple[Event, ...] = ()
         self._lay_out()
