@@ -173,18 +173,14 @@ def frequency(times: Values, values: Values) -> float:
     if len(values) < 3 or span == 0:
         return float("nan")
     swing = values - float(values.mean())
-    armed, found = False, []
-    last_below = 0
-    for place in np.flatnonzero(np.abs(swing) >= HYSTERESIS * span / 2):
-        if swing[place] < 0:
-            armed, last_below = True, int(place)
-        elif armed:
-            armed = False
-            between = np.flatnonzero(swing[last_below:place] < 0)
-            found.append(_crossing(times, swing, last_below + int(between[-1]), 0.0))
-    if len(found) < 2 or found[-1] == found[0]:
+    far = np.flatnonzero(np.abs(swing) >= HYSTERESIS * span / 2)
+    above = swing[far] > 0
+    risen = far[1:][above[1:] & ~above[:-1]]
+    if len(risen) < 2:
         return float("nan")
-    return (len(found) - 1) / (found[-1] - found[0])
+    below = np.maximum.accumulate(np.where(swing < 0, np.arange(len(swing)), 0))  # the last one below, for each
+    first, last = (_crossing(times, swing, int(below[place]), 0.0) for place in (risen[0], risen[-1]))
+    return (len(risen) - 1) / (last - first) if last > first else float("nan")
 
 
 # ---------------------------------------------------------------------- spectrum
