@@ -69,7 +69,7 @@ class AtMachine:
         self.table = TeachPanel(clock=studio.now)
         self.teach = Teach(
             connection, studio.session, tick, self.table, self.plane, ask, studio.ear.homed_axes, studio.files.folder,
-            studio.now, studio,
+            data, studio.now, studio,
         )  # fmt: skip
         self.pads.add(self.table)
         self.ghosts.sources.append(self.teach.play.ghost)

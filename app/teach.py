@@ -17,7 +17,7 @@ from app.session import Session
 from app.teach_drive import TeachDrive
 from app.teach_play import TeachPlay
 from app.tick import Tick, failure_of
-from codegen import teach
+from codegen import teach, teach_file
 from codegen.document import Document
 from codegen.files import FileUnreadable
 from codegen.files import save as save_program
@@ -52,13 +52,15 @@ class Teach(QObject):
         ask: Ask,
         homed: Callable[[], Iterable[str]],
         folder: Callable[[], Path],
+        data: Path,
         clock: Callable[[], float],
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._connection, self._session, self._tick = connection, session, tick
         self._panel, self._plane, self._ask, self._folder, self._clock = panel, plane, ask, folder, clock
-        self.table = Table()
+        self._kept = data / "teach.tlt"  # the table as it was left: nothing that was taught is lost
+        self.table = self._left()
         self._undone: list[Table] = []
         self._redone: list[Table] = []
         self._saved = self.table
@@ -69,6 +71,7 @@ class Teach(QObject):
         self.play = TeachPlay(connection, tick, panel, ask, homed, self)
         self._join()
         tick.each(self.look)
+        connection.changed.connect(self._another)
         self._show()
 
     def _join(self) -> None:
@@ -113,8 +116,28 @@ class Teach(QObject):
             return
         self._undone = [*self._undone[-MOST_UNDONE:], self.table]
         self._redone.clear()
+        self._take(table)
+
+    def _take(self, table: Table) -> None:
         self.table = table
+        try:
+            teach_file.save(self._kept, table)
+        except OSError as error:
+            words = f"The table could not be kept for the next start: {error.strerror or error}."
+            self._panel.show_result(words, good=False)
         self._show()
+
+    def _left(self) -> Table:
+        """The table of the last time; an empty one where there is none, or none that can be read."""
+        try:
+            return teach_file.load(self._kept)
+        except (FileUnreadable, OSError):
+            return Table()
+
+    def _another(self) -> None:
+        """Another controller: what was seen of the one before is no way of this one."""
+        self._seen, self._pending = None, False
+        self._panel.show_way(False)
 
     def _add(self, row: Row, words: str) -> None:
         rows = len(self.table)
@@ -142,12 +165,10 @@ class Teach(QObject):
             self.change(teach.with_values(table, rows, values))
         elif what == "undo" and self._undone:
             self._redone.append(table)
-            self.table = self._undone.pop()
-            self._show()
+            self._take(self._undone.pop())
         elif what == "redo" and self._redone:
             self._undone.append(table)
-            self.table = self._redone.pop()
-            self._show()
+            self._take(self._redone.pop())
 
     # ---- recording
 
@@ -263,10 +284,8 @@ class Teach(QObject):
 
     def open(self, path: Path) -> None:
         """A file that was named; every failure is one sentence."""
-        from codegen.teach_file import load
-
         try:
-            table = load(path)
+            table = teach_file.load(path)
         except (FileUnreadable, OSError) as error:
             said = str(error) if isinstance(error, FileUnreadable) else f"{path.name}: {error.strerror or error}"
             self._ask("The teach data can not be opened", f"{said.rstrip('.')}.", (), "problem")
@@ -284,9 +303,7 @@ class Teach(QObject):
 
     def save(self, path: Path) -> None:
         """The table as a file."""
-        from codegen.teach_file import save
-
-        if self._written(path, lambda: save(path, self.table)):
+        if self._written(path, lambda: teach_file.save(path, self.table)):
             self._saved = self.table
             self._panel.show_result(f"Saved {path.name}: {len(self.table)} rows.")
 

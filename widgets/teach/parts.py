@@ -38,6 +38,7 @@ STICK = 156  # px
 LOWEST_PICTURE = 150  # px
 SWITCHED_NOW = "I/O control is on: the outputs are switched now as well."
 ONLY_KEPT = "I/O control is off: the row is added, nothing is switched now."
+PLAYS = "The table is being played back."
 EDITS = (
     ("insert", "Insert", "An empty row above the selected one (Ins)"),
     ("delete", "Delete", "Takes the selected rows out (Ctrl+-)"),
@@ -95,7 +96,8 @@ class Parts(QWidget):
     def show_usable(self, reason: str, io_control: bool) -> None:
         """Why nothing may be driven now, or nothing."""
         self._usable = reason
-        enable(self.enable, "" if self._panel.enabled else reason or self._panel.problem)
+        busy = PLAYS if self._playing else ""
+        enable(self.enable, "" if self._panel.enabled else reason or self._panel.problem or busy)
         for widget in (self.record, self.way, self.io_control):
             enable(widget, reason)
         if self.io_control.isChecked() != io_control:
@@ -126,7 +128,7 @@ class Parts(QWidget):
     def _show_playable(self) -> None:
         wrong = self._panel.wrong
         reason = self._usable or self._panel.problem or ("The table is empty." if not len(self._panel.table) else "")
-        enable(self.play, reason or (wrong[0].sentence if wrong else "") or ("It plays." if self._playing else ""))
+        enable(self.play, reason or (wrong[0].sentence if wrong else "") or (PLAYS if self._playing else ""))
         enable(self.halt, "" if self._playing else "Nothing is played back.")
         enable(self.files["module"], "The table is empty." if not len(self._panel.table) else "")
         enable(self.files["save"], "The table is empty." if not len(self._panel.table) else "")

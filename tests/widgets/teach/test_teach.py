@@ -10,11 +10,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from codegen import teach_file
 from codegen.teach import Row, Table
+from device.gamepad import Held
 from tests.long import is_long
+from tests.widgets.jog.test_pad import HandPad
 from tests.widgets.teach.bench import LEFT, Bench
 from widgets.teach.entries import OutputEntry, WaitEntry
-from widgets.teach.panel import OFFLINE, SCREEN, WATCHED
+from widgets.teach.panel import OFFLINE, PAD, SCREEN, WATCHED
 
 PACE = {"speed": "20", "acceleration": "512", "deceleration": "512"}
 ENDINGS = ("stop", "watch", "focus", "hidden", "cable") if is_long() else ("focus", "stop")
@@ -51,18 +54,36 @@ def test_the_joystick_drives_and_its_buttons_record_and_end(bench: Bench) -> Non
     assert (bench.rows[0]["x"], bench.rows[0]["y"]) == (f"{x / 1000:g}", f"{y / 1000:g}")
     bench.press(8)
     assert not bench.panel.enabled and bench.panel.words() == "Done: 1 rows."
+    a_whole_way_with_a_pause(bench)
+
+
+def drive_by_pad(bench: Bench) -> None:
+    """A gamepad drives while its dead-man button is down."""
+    pad = HandPad(Held(0.0, 0.0, False))
+    bench.stage.studio.at_machine.pads.opened = lambda: pad
+    bench.parts.source.setCurrentIndex(bench.parts.source.findData(PAD))
+    bench.enable()
+    pad.push(0, 1)
+    bench.stage.go(25)
+    assert bench.moving and bench.places[1] > 300 and bench.places[0] == 0
+    pad.push(0, 1, dead_man=False)
+    bench.stage.go(20)
+    assert not bench.moving
+    bench.click(bench.parts.enable)
+    assert not bench.panel.enabled
 
 
 def test_whatever_ends_driving_stops_both_axes(bench: Bench) -> None:
     bench.connect()
+    drive_by_pad(bench)
     bench.parts.source.setCurrentIndex(bench.parts.source.findData(SCREEN))
-    stick = bench.parts.stick
+    stick, across = bench.parts.stick, bench.places[1]
     for how in ENDINGS:
         bench.enable()
         stick.setFocus()
         QTest.keyPress(stick, Qt.Key.Key_Right)
         bench.stage.go(30)
-        assert bench.moving and bench.places[1] == 0
+        assert bench.moving and bench.places[1] == across
         if how == "stop":
             bench.stage.studio.connection.stop()
         elif how == "watch":
@@ -88,8 +109,9 @@ def test_whatever_ends_driving_stops_both_axes(bench: Bench) -> None:
         assert bench.places == place
 
 
-def test_a_whole_way_with_a_pause_becomes_rows(bench: Bench) -> None:
-    bench.connect().enable()
+def a_whole_way_with_a_pause(bench: Bench) -> None:
+    """Becomes rows: along X, a pause, along Y."""
+    bench.enable()
     bench.click(bench.parts.way)
     for x, y in ((1, 0), (0, 0), (0, 1)):
         bench.push(x, y)
@@ -97,14 +119,14 @@ def test_a_whole_way_with_a_pause_becomes_rows(bench: Bench) -> None:
     bench.push(0, 0)
     bench.still()
     bench.click(bench.parts.way)
-    rows = bench.rows
+    rows = bench.rows[1:]
     assert 3 <= len(rows) <= 6, rows
     assert any(float(row.get("pause", 0)) > 500 for row in rows[1:-1]), rows
     assert (float(rows[-1]["x"]) * 1000, float(rows[-1]["y"]) * 1000) == bench.places
     assert bench.panel.wrong == ()
 
 
-def test_the_table_is_edited_by_keys_also_offline(bench: Bench) -> None:
+def test_the_table_is_edited_by_keys_also_offline_and_by_windows(bench: Bench, tmp_path: Path) -> None:
     assert bench.panel.words() == OFFLINE and not bench.parts.enable.isEnabled()
     rows = (Row(x="1", y="2", **PACE), Row(wait="3"))
     bench.stage.studio.at_machine.teach.change(Table(("mm", "mm"), rows))
@@ -129,8 +151,13 @@ def test_the_table_is_edited_by_keys_also_offline(bench: Bench) -> None:
     bench.fill(bench.parts.of_rows, "speed", "")
     assert "Speed is missing" in bench.parts.of_rows.message.text() == f"{bench.panel.problem}."
 
+    waits_and_outputs(bench, tmp_path)
 
-def test_waits_and_outputs_are_added_by_their_windows_and_files_come_back(bench: Bench, tmp_path: Path) -> None:
+
+def waits_and_outputs(bench: Bench, tmp_path: Path) -> None:
+    """Added by their windows; the file comes back."""
+    bench.fill(bench.parts.of_rows, "speed", "33")
+    bench.stage.studio.at_machine.teach.change(Table(("mm", "mm")))
     bench.connect("machine")
     assert bench.panel.words() == WATCHED and not bench.parts.enable.isEnabled()
     bench.stage.controller.take_control()
@@ -158,6 +185,7 @@ def test_waits_and_outputs_are_added_by_their_windows_and_files_come_back(bench:
     teach.change(Table(("mm", "mm")))
     teach.open(file)
     assert teach.table == before
+    assert Table(("mm", "mm"), before.rows) == teach_file.load(tmp_path / "teach.tlt")  # there again at the next start
 
 
 def test_play_back_says_where_it_goes_asks_steps_and_stops(bench: Bench) -> None:
