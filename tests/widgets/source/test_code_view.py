@@ -105,3 +105,24 @@ def test_running_problem_and_error_lines_are_marked(qtbot: QtBot) -> None:
     view.show_chosen([1])
     view.show_error(2)
     assert len(view.extraSelections()) == 3
+
+
+def test_lines_get_their_colours_when_they_come_into_sight(qtbot: QtBot) -> None:
+    view = CodeView()
+    qtbot.addWidget(view)
+    view.resize(400, 300)
+    view.show()
+    qtbot.waitExposed(view)
+    view.show_lines([f"PR {number}" for number in range(500)], {})
+
+    def coloured(number: int) -> bool:
+        return bool(view.document().findBlockByNumber(number).layout().formats())
+
+    qtbot.waitUntil(lambda: coloured(0))
+    assert not coloured(300)
+    view.verticalScrollBar().setValue(300)
+    shown = [number for number, _, _ in view.visible_lines()]
+    assert 300 in shown and all(map(coloured, shown))
+    view.show_lines([f"SP {number}" for number in range(500)], {})  # all of them are others now
+    view.verticalScrollBar().setValue(0)
+    assert coloured(0) and not coloured(450)
