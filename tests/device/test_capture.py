@@ -10,6 +10,7 @@ import pytest
 from codegen.models import MODELS
 from device.capture import Capture, Channel, Plan, Trigger, When, channels, objection
 from device.capturing import CaptureJob, capture
+from device.stop import StopState
 from device.tasks import LinkError, NotAllowed, Refused
 from tests.long import count
 from tests.rig import Rig
@@ -240,6 +241,40 @@ def test_stop_ends_the_motion_and_not_the_capture() -> None:
     assert found.complete and not rig.moving
     speed = np.diff(found.of(COMMANDED))
     assert speed[5] > 0 and not speed[-20:].any()
+
+
+def test_stop_does_not_wait_behind_what_is_read() -> None:
+    """ST begins to act once the element that is being sent has left: at most CHUNK_S and the way of the stop itself."""
+    rig = moving()
+    job = capture(rig.controller, Plan((POSITION, COMMANDED), 1, 500))
+    for offset in (0.0, 0.03, 0.08, 0.13)[: count(2, 4)]:
+        rig.type("DC 67107840", "JG 3000", "BG X")
+        rig.run(0.4 + offset)
+        assert rig.moving and not job.future.done()
+        before = rig.clock()
+        rig.controller.stop()
+        rig.until(lambda: not rig.moving)
+        assert rig.clock() - before < 0.25
+        rig.until(lambda: rig.controller.stop_state is StopState.STOPPED)
+    assert done(rig, job).complete
+
+
+def test_a_question_gets_its_answer_and_nothing_else() -> None:
+    rig = moving(program='#A\nWT 200\nIN "LEN",LEN\nEN')
+    job = capture(rig.controller, Plan((POSITION,), 1, 150))
+    rig.until(lambda: job.partial() is not None)
+    rig.controller.execute(anyway=True)
+    rig.until(lambda: rig.controller.pending_prompt is not None)
+    sent = len(rig.lines)
+    rig.run(1.0)
+    assert len(rig.lines) == sent and not job.future.done()
+    rig.result(rig.controller.answer("12.5"))
+    assert done(rig, job).complete
+    assert rig.simulation.state()["variables"]["LEN"] == 12.5
+    with pytest.raises(NotAllowed, match="Not captured: Live values rest"):
+        rig.controller.execute(anyway=True)
+        rig.run(0.05)
+        captured(rig, Plan((POSITION,), 1, 150))
 
 
 def test_a_refused_go_leaves_nothing_behind() -> None:
