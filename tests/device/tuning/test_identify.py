@@ -146,7 +146,7 @@ def test_inertia_friction_weight_and_delay(name: str, model: str) -> None:
     assert abs(found.plant.gain - gain_of(plant)) < 6 * found.sigma["gain"] + 0.005 * gain_of(plant)
 
 
-@pytest.mark.parametrize("tm", [500, 2000])
+@pytest.mark.parametrize("tm", [500, pytest.param(2000, marks=pytest.mark.long)])
 def test_other_sample_times(tm: int) -> None:
     plant = rigid(3, 2000, delay_samples=2)
     axis = Axis(plant, tm=tm)

@@ -142,6 +142,7 @@ def test_machines_nobody_has_chosen_are_tuned_as_well(group: int) -> None:
     assert reached >= 7 and without <= 2
 
 
+@pytest.mark.long
 def test_a_voltage_drive_is_taken_for_friction_and_delay() -> None:
     # its electrical time constant of 2 ms (dmc-1412-1414.txt l.4384) is a lag that a delay stands for
     plant = Plant(drive=Drive.VOLTAGE, amplifier_gain=4.0)
