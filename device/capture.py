@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -231,8 +231,9 @@ def shown_by(trigger: Trigger, recorded: Collection[Channel]) -> Channel | None:
 class Capture:
     """Recorded values, `values[channel, n]` in counts, V, or bits; NaN where not (yet) read.
 
-    Element `trigger` is the first one at or after the trigger, `early` how many elements earlier it may have been
-    (0: exact to one interval). `model`, `controller`, `when`, `setup`, `note` say where it comes from.
+    Element `trigger` is the first one at or after the trigger (outside, where only a part was kept), `early` how many
+    elements earlier it may have been (0: exact to one interval). `model`, `controller`, `when`, `setup`, `note` say
+    where it comes from.
     """
 
     channels: tuple[Channel, ...]
@@ -281,6 +282,14 @@ class Capture:
     def scale(self, channel: Channel) -> tuple[float, str]:
         """What one user unit counts, and its name: lengths by the setup's axis, other values as they are."""
         return scale_of(channel, self.setup)
+
+
+def cut(capture: Capture, low_s: float, high_s: float) -> Capture:
+    """Only the values between two times; the trigger stays where it was, perhaps outside."""
+    inside = np.flatnonzero((capture.times >= low_s) & (capture.times <= high_s))
+    first, last = (int(inside[0]), int(inside[-1]) + 1) if len(inside) else (0, 0)
+    part = capture.complete and last - first == capture.count
+    return replace(capture, values=capture.values[:, first:last].copy(), trigger=capture.trigger - first, complete=part)
 
 
 def scale_of(channel: Channel, setup: Setup | None) -> tuple[float, str]:

@@ -184,7 +184,7 @@ def _capture(about: dict[str, Any], channels: tuple[Channel, ...], values: np.nd
         values=values,
         exponent=_whole(about, "exponent", 1, SLOWEST),
         tm=float(tm),
-        trigger=_whole(about, "trigger", 0, max(count, 1)),
+        trigger=_whole(about, "trigger", -MOST, MOST),
         early=_whole(about, "early", 0, MOST),
         model=str(model or ""),
         complete=bool(about.get("complete")),

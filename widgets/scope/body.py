@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QResizeEvent
-from PySide6.QtWidgets import QLabel, QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from codegen.models import Model
 from codegen.setup import Setup
 from device.api import Kind, State
-from device.capture import Capture, Channel, scale_of
+from device.capture import Capture, Channel, cut, scale_of
 from device.curves import Curve, curves, group_of, spectrum
 from widgets.panel import set_text
 from widgets.parts.look import look
@@ -277,6 +277,20 @@ class Body(QWidget):
         self.bar.cursors.setChecked(False)
         self.redraw(fit=True)
 
+    def _ask_what_to_save(self) -> None:
+        """All of the capture, or the stretch that is on the screen."""
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.addAction("Save the whole capture…").triggered.connect(lambda: self.save_wanted.emit(self.shown))
+        part = menu.addAction("Save only what is on the screen…")
+        part.triggered.connect(self._save_part)
+        part.setEnabled(self.bar.view is View.TIME)
+        menu.popup(self.bar.save.mapToGlobal(self.bar.save.rect().bottomLeft()))
+
+    def _save_part(self) -> None:
+        if self.shown is not None:
+            self.save_wanted.emit(cut(self.shown, *self.chart.range))
+
     def _live(self) -> None:
         self._following = True
         self.live_wanted.emit(self.bar.live.isChecked())
@@ -337,7 +351,7 @@ class Body(QWidget):
         bar.finish.clicked.connect(self.finish_wanted)
         bar.cancel.clicked.connect(self.cancel_wanted)
         bar.live.clicked.connect(self._live)
-        bar.save.clicked.connect(lambda: self.save_wanted.emit(self.shown))
+        bar.save.clicked.connect(self._ask_what_to_save)
         bar.open.clicked.connect(self.open_wanted)
         bar.cursors.toggled.connect(self._toggle_cursors)
         bar.sides_left.toggled.connect(self._left.setVisible)

@@ -14,7 +14,7 @@ import shiboken6
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QGuiApplication, QMouseEvent, QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QMenu, QWidget
 
 from app.theme import Theme
 from codegen.models import MODELS
@@ -321,16 +321,33 @@ def test_an_earlier_capture_is_opened_and_laid_over(stage: Stage, tmp_path: Path
     assert body.bar.words.text().startswith("broken.csv is not a capture: ")
 
 
+def pick(body: Body, *keys: Qt.Key) -> None:
+    """An entry of the menu that is open, by keys."""
+    menu = next(each for each in body.findChildren(QMenu) if each.isVisible())
+    for key in (*keys, Qt.Key.Key_Return):
+        QTest.keyClick(menu, key)
+
+
 def test_saving_asks_for_a_file_and_writes_it(stage: Stage, tmp_path: Path) -> None:
     body = scope(stage)
     capture, _ = given(body)
     stage.go()
     click(body.bar.save)
+    pick(body, Qt.Key.Key_Down)
     dialog = next(each for each in stage.studio.window.findChildren(QFileDialog) if each.isVisible())
     dialog.fileSelected.emit(str(tmp_path / "mine.npz"))
     dialog.close()
     assert np.array_equal(load(tmp_path / "mine.npz").values, capture.values)
     assert body.bar.words.text() == "Saved as mine.npz."
+    body.chart.show_range(1.0, 2.0)
+    click(body.bar.save)
+    pick(body, Qt.Key.Key_Down, Qt.Key.Key_Down)
+    dialog = next(each for each in stage.studio.window.findChildren(QFileDialog) if each.isVisible())
+    dialog.fileSelected.emit(str(tmp_path / "part.csv"))
+    dialog.close()
+    part = load(tmp_path / "part.csv")
+    assert part.times[0] == pytest.approx(1.0, abs=0.004) and part.times[-1] == pytest.approx(2.0, abs=0.004)
+    assert np.array_equal(part.values, capture.values[:, 256:513])  # 1 s to 2 s at 4/1024 s
     stage.studio.at_machine.scope.save(capture, tmp_path / "no folder" / "mine.csv")
     assert body.bar.words.text().startswith("Not saved: mine.csv")
 
