@@ -228,7 +228,10 @@ def teach_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     rig.simulation.stimulus("in3", 1)
     stage.until(lambda: "waits" in panel.words(), 60)
     stage.go(5)
+    panel.parts.fold.click()
+    stage.go(2)
     yield "panel-teach", studio.window
+    panel.parts.fold.click()
     panel.parts.halt.click()
     stage.go(30)
     panel.parts.output.click()

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QPushButton,
     QSizePolicy,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -62,6 +63,7 @@ class Parts(QWidget):
         self._usable, self._playing = "", False
         self.source, self.enable = QComboBox(), QPushButton("Enable")
         self.stick, self.place = Stick(), QLabel()
+        self.block, self.fold = QWidget(), QToolButton()
         self.of_stick, self.of_rows = Numbers(OF_THE_STICK), Numbers(OF_THE_ROWS, 2)
         self.record, self.done = QPushButton("Record"), QPushButton("Done")
         self.wait, self.output = QPushButton("Wait…"), QPushButton("Output…")
@@ -167,6 +169,7 @@ class Parts(QWidget):
 
         self.plot = Plot("Path of the teach table", equal=True)
         self.plot.setMinimumHeight(LOWEST_PICTURE)
+        self.plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)  # its own wish is a window
         self._line, self._dots = self.plot.plot(), self.plot.plot(symbol="o", symbolSize=6, symbolPen=None)
         self._now = self.plot.plot(symbol="o", symbolSize=12, symbolPen=None)
         self._column.insertWidget(self._column.count() - 1, self.plot, 2)
@@ -196,6 +199,12 @@ class Parts(QWidget):
         names = OF_THE_STICK if self._panel.source == "joystick" else OF_THE_STICK[:2]
         self.of_stick.show_only(names)
 
+    def _fold(self) -> None:
+        """The stick and the fields go, or come back; what is driven is let go with them."""
+        shown = self.block.isHidden()
+        self.block.setVisible(shown)
+        self.fold.setArrowType(Qt.ArrowType.UpArrow if shown else Qt.ArrowType.DownArrow)
+
     def _refused(self, sentence: str) -> None:
         self._tell(sentence)
 
@@ -205,6 +214,7 @@ class Parts(QWidget):
         self.source.currentIndexChanged.connect(self._source_chosen)
         for numbers in (self.of_stick, self.of_rows):
             numbers.edited.connect(panel.driving_changed)
+        self.fold.clicked.connect(self._fold)
         self.record.clicked.connect(panel.record_wanted)
         self.way.clicked.connect(panel.way_wanted)
         self.done.clicked.connect(panel.done_wanted)
@@ -233,23 +243,30 @@ class Parts(QWidget):
         self.source.setAccessibleName("Drive with")
         self.enable.setCheckable(True)
         self.enable.setProperty("hint", "The stick drives X and Y until you end it, or another window comes in front.")
+        self.fold.setAccessibleName("Stick and speeds")
+        self.fold.setToolTip("Hides the stick and the fields, so that the table has more room; or shows them again.")
+        self.fold.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.fold.setArrowType(Qt.ArrowType.UpArrow)
         self.how.addItems(["Continuous", "Step by step"])
         self.how.setAccessibleName("Play back")
         self.stick.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.stick.setFixedSize(STICK, STICK)
-        self._column.addLayout(_row(self.source, self.enable))
-        middle = QGridLayout()
+        top = _row(self.source, self.enable)
+        top.addWidget(self.fold)
+        self._column.addLayout(top)
+        middle = QGridLayout(self.block)
+        middle.setContentsMargins(0, 0, 0, 0)
         middle.setHorizontalSpacing(12)
         middle.addWidget(self.stick, 0, 0, Qt.AlignmentFlag.AlignTop)
         middle.addWidget(self.of_stick, 0, 1, Qt.AlignmentFlag.AlignTop)
+        middle.addWidget(self.of_rows, 1, 0, 1, 2)
         middle.setColumnStretch(1, 1)
-        self._column.addLayout(middle)
+        self._column.addWidget(self.block)
         self.place.setProperty("role", "quiet")
         self._column.addWidget(self.place)
         for button in (self.record, self.wait, self.output, self.done):
             button.setMinimumHeight(look().space["touch"])
         self._column.addLayout(_row(self.record, self.wait, self.output, self.done))
-        self._column.addWidget(self.of_rows)
         self._column.addLayout(_row(self.way, self.io_control))
         self._column.addLayout(_row(self.how, self.play, self.next, self.halt))
         self._column.addWidget(self.view, 3)

@@ -15,6 +15,7 @@ from widgets.parts.look import look
 
 Index = QModelIndex | QPersistentModelIndex
 ROW_HEIGHT = 26
+LONGEST_WORD = 8  # characters of a heading in one line
 NARROWEST = 40  # px
 
 
@@ -98,7 +99,9 @@ class TeachModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             if orientation is Qt.Orientation.Vertical:
                 return str(section + 1)
-            return f"{label_of(COLUMNS[section])}\n{unit_row(self.table)[section]}"
+            label = label_of(COLUMNS[section])
+            words = label.replace(" ", "\n") if len(label) > LONGEST_WORD else label
+            return f"{words}\n{unit_row(self.table)[section]}"
         if role == Qt.ItemDataRole.ToolTipRole and orientation is Qt.Orientation.Horizontal:
             return fields_of(Row)[COLUMNS[section]].help
         return None
@@ -127,7 +130,7 @@ class TeachView(QTableView):
         columns.setMinimumSectionSize(NARROWEST)
         columns.setFont(look().small_font())
         columns.setHighlightSections(False)
-        self.setMinimumHeight(ROW_HEIGHT * 6 + 44)
+        self.setMinimumHeight(ROW_HEIGHT * 7 + 56)
         self.show_columns(False)
 
     def show_columns(self, all_of_them: bool) -> None:
@@ -142,7 +145,7 @@ class TeachView(QTableView):
         for number, column in enumerate(COLUMNS):
             heading = str(model.headerData(number, Qt.Orientation.Horizontal)).split("\n")
             texts = {shown_text(getattr(row, column)) for row in model.table.rows}
-            widths = [small.horizontalAdvance(text) + 13 for text in heading]
+            widths = [small.horizontalAdvance(text) + 16 for text in heading]
             widths += [body.horizontalAdvance(text) + 12 for text in texts]
             self.setColumnWidth(number, max(NARROWEST, *widths))
 
