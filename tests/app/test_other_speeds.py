@@ -16,8 +16,8 @@ PANELS = (
         "commissioning", "display", "jog", "plane", "scope", "simulator", "terminal", "values",
     )),
     *(f"tests/app/test_{name}.py" for name in (
-        "backups", "doctor_desk", "editor", "event_list", "live_values", "operator", "recorder", "slow_run", "stop", "tracing",
-        "watch",
+        "backups", "doctor_desk", "editor", "event_list", "live_values", "operator", "recorder", "slow_run", "stop",
+        "tracing", "watch",
     )),
 )  # fmt: skip
 
