@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
     QLabel,
+    QMenu,
     QProgressBar,
     QPushButton,
     QToolButton,
@@ -24,6 +25,7 @@ from widgets.panel import set_text, show_role
 from widgets.parts.icons import icon
 from widgets.parts.look import look
 
+TOOLED = 720  # px of width from which on all tools have room
 WORDY = 900  # px of width from which on all buttons say their names
 SPANS = {"10 s": 10.0, "30 s": 30.0, "2 min": 120.0, "10 min": 600.0, "1 h": 3600.0}
 
@@ -56,7 +58,8 @@ class Bar(QWidget):
         self.cursors, self.sides_left, self.sides_right = (
             QPushButton(text) for text in ("Cursors", "Channels", "Readings")
         )
-        self.fit, self.save, self.open, self.picture = (QToolButton() for _ in range(4))
+        self.fit, self.save, self.open, self.picture, self.more = (QToolButton() for _ in range(5))
+        self.tools = (self.fit, self.save, self.open, self.picture)
         self.progress, self.words = QProgressBar(), QLabel()
         self._busy = False
         self._name_all()
@@ -175,6 +178,13 @@ class Bar(QWidget):
             small.setProperty("role", "control")
             small.setFixedWidth(look().space["control"] + 8)
             small.setStyleSheet("padding: 0;")  # as narrow as that, the usual padding would leave the icon no room
+        self.more.setIcon(icon("down"))
+        self.more.setAccessibleName("More")
+        self.more.setToolTip("Fit, save, open, picture")
+        self.more.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.more.setProperty("role", "control")
+        self.more.setFixedWidth(look().space["control"] + 8)
+        self.more.setStyleSheet("padding: 0;")
         for switch in (self.live, self.cursors, self.sides_left, self.sides_right):
             switch.setCheckable(True)
         self.capture.setProperty("role", "primary")
@@ -204,7 +214,7 @@ class Bar(QWidget):
         row.addStretch(1)
         for widget in (self.views, self.windows, self.upward, self.over, self.across, self.cursors):
             row.addWidget(widget)
-        for widget in (self.sides_left, self.sides_right, self.fit, self.save, self.open, self.picture):
+        for widget in (self.sides_left, self.sides_right, *self.tools, self.more):
             row.addWidget(widget)
         state = QHBoxLayout()
         state.addWidget(self.words, 1)
@@ -218,13 +228,30 @@ class Bar(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Where there is little room some buttons show their icons only; their names and tips stay."""
         super().resizeEvent(event)
+        for button in (self.capture, self.live, self.views):
+            button.setMinimumWidth(button.sizeHint().width())
         for button in (self.cursors, self.sides_left, self.sides_right):
             button.setText(button.accessibleName() if event.size().width() >= WORDY else "")
+        wide = event.size().width() >= TOOLED
+        for tool in self.tools:
+            tool.setVisible(wide)
+        self.more.setVisible(not wide)
+
+    def _show_more(self) -> None:
+        """The tools that have no room, as a menu."""
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for tool in self.tools:
+            entry = menu.addAction(tool.icon(), tool.accessibleName())
+            entry.setEnabled(tool.isEnabled())
+            entry.triggered.connect(tool.click)
+        menu.popup(self.more.mapToGlobal(self.more.rect().bottomLeft()))
 
     def _connect(self) -> None:
         self.views.currentIndexChanged.connect(self.view_chosen)
         for box in (self.windows, self.across, self.upward, self.span):
             box.currentIndexChanged.connect(self.drawn_otherwise)
+        self.more.clicked.connect(self._show_more)
 
 
 def _left(seconds: float) -> str:

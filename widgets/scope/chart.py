@@ -10,7 +10,7 @@ import numpy as np
 import pyqtgraph
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPalette, QPixmap
+from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPalette, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from widgets.parts.look import look
@@ -18,6 +18,7 @@ from widgets.parts.plot import Plot
 
 FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
 WAY = 60  # heights of the picture that a smooth curve may go up and down
+TITLED = 110  # px of height from which on a strip has titles at its sides
 FADED = 90  # opacity of an overlaid curve, of 255
 NAMES = ("A", "B")
 
@@ -49,6 +50,17 @@ class Strip(Plot):
     def fit(self) -> None:
         self._chart.fit()
         self.fitted.emit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Where it is low, the numbers have the room of the titles; the names in their colours stay."""
+        super().resizeEvent(event)
+        if hasattr(self, "actions_"):  # not while it is being made
+            self.show_titles()
+
+    def show_titles(self) -> None:
+        high = self.height() >= TITLED
+        self.getAxis("left").showLabel(high and bool(self.getAxis("left").labelText))
+        self.getAxis("bottom").showLabel(high and bool(self.getAxis("bottom").labelText))
 
     def fit_own(self) -> None:
         """This strip alone."""
@@ -182,7 +194,7 @@ class Chart(QWidget):
         words = f"{group} ({', '.join(units)})" if units and group else group or ", ".join(units)
         if strip.getAxis("left").labelText != words:
             strip.name_sides(bottom if last else "", words)
-            strip.getAxis("bottom").showLabel(last)
+            strip.show_titles()
             strip.getAxis("left").setWidth(self._left_px)
         dash = {True: "┅", False: "━"}
         names = dict.fromkeys((line.label, line.colour.name(), line.dashed) for line in lines if not line.faded)

@@ -45,9 +45,9 @@ SLOTS = 4
 COLOURS = {"Blue": "axis_x", "Orange": "axis_y", "Green": "axis_z", "Purple": "axis_w", "Text": "text", "Grey": "quiet"}
 WHENS = {
     When.NOW: "At once",
-    When.MOTION: "Axis begins to move",
-    When.INPUT: "Edge of an input",
-    When.LEVEL: "Level of a channel",
+    When.MOTION: "Motion begins",
+    When.INPUT: "Edge of input",
+    When.LEVEL: "Level",
 }
 EDGES = {True: ("goes on", "rises above"), False: ("goes off", "falls below")}
 USUAL = (Channel("position", "X"), Channel("commanded", "X"), Channel("error", "X"), Channel("torque", "X"))
@@ -220,7 +220,7 @@ class Choices(QWidget):
         sample_s = float(self._setup.sample) / 1_024_000 if self._setup is not None else 1000 / 1_024_000
         for place in range(SLOWEST):
             every = 2 << place
-            self.every.setItemText(place, f"{every} samples, {every * sample_s * 1000:.4g} ms")
+            self.every.setItemText(place, f"{every} samples, {every * sample_s * 1000:.3g} ms")
         if self._model is not None:
             self.count.setRange(FEWEST, most(self._model, several))
         set_text(self.length, f"{self.count.value() * (2 << self.every.currentIndex()) * sample_s:.3g} s")

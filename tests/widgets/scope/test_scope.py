@@ -135,7 +135,7 @@ def test_a_move_is_captured_by_keys_and_mouse(stage: Stage) -> None:
     QTest.mouseClick(body.choices.derived[Derived.VELOCITY], LEFT, pos=QPoint(12, 12))
     choose(body.choices.every, body.choices.every.itemText(1))  # each 4 samples
     enter(body.choices.count, "140")
-    choose(body.choices.begin, "Axis begins to move")
+    choose(body.choices.begin, "Motion begins")
     assert "because Commanded position X is recorded" in body.choices.hint.text()
     click(body.bar.capture)
     stage.until(lambda: body.bar.words.text().startswith("Waiting"))
@@ -167,7 +167,7 @@ def test_why_a_capture_can_not_begin_is_told(stage: Stage) -> None:
     stage.go()
     assert not body.bar.capture.isEnabled() and "Take Control first" in body.bar.capture.toolTip()
     stage.controller.take_control()
-    choose(body.choices.begin, "Level of a channel")
+    choose(body.choices.begin, "Level")
     enter(body.choices.level, "12,5")
     stage.go()
     assert not body.bar.capture.isEnabled() and "12.5" in body.choices.hint.text()
