@@ -39,6 +39,7 @@ TURN_THE_LOOP = (
     "Or in the controller, with the motor off: MT -1 (“Servo, reversed”), or CE 2 (“Quadrature, reversed”) in the "
     "setup. After a master reset these are gone and the axis runs away again.",
 )
+PULLED = "A load that pulls, as on a vertical axis, does the same: balance it, or allow a larger error limit."
 TURN_THE_PHASES = ("Sine commutation: test the phases and drive to zero again; a wrong phase runs away as well.",)
 TURN_THE_DIRECTION = (
     "Exchange the motor leads AND the encoder channels of a brush motor; only both together turn the direction.",
@@ -274,7 +275,7 @@ def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
             f"Wrong polarity: the axis ran away from where it was commanded to be, {moved.furthest} counts, until it "
             "was switched off."
         )
-        return Finding(FAILED, words, (*(TURN_THE_PHASES if sine else ()), *TURN_THE_LOOP), facts)
+        return Finding(FAILED, words, (*(TURN_THE_PHASES if sine else ()), *TURN_THE_LOOP, PULLED), facts)
     if moved.code in (FORWARD_LIMIT, REVERSE_LIMIT):
         end = "forward" if moved.code == FORWARD_LIMIT else "reverse"
         return Finding(FAILED, f"The {end} limit stopped it.", ("Move the axis away from its end by hand.",), facts)

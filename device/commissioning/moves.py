@@ -37,6 +37,7 @@ TRIAL_COUNTS, TRIAL_ERROR = 300, 60  # counts of the polarity move, and its erro
 LARGEST_TRIAL = 600  # counts: it may take two moves
 LARGEST_ERROR = 400  # counts: an axis with much friction needs more than the usual
 FEELERS = (10, 10, 10, 20, 40)  # error limits that are tried before, counts; a dead channel may look still once
+RAN = 40  # counts backwards that are no sagging of a load that hangs
 SPEED, RAMP = 2000, 20480  # counts/s, counts/s²: slow to follow, quick enough to trip a dead encoder's error limit
 MARGIN = 200  # counts beyond the target before it is switched off from here
 SETTLE_S, LONGEST_S, COAST_S = 0.3, 8.0, 4.0
@@ -90,17 +91,17 @@ def _begin(c: Controller, trial: Trial, folder: Path, now: datetime) -> Steps[Fo
 
 def _felt(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Steps[Moved]:
     """Larger and larger error limits, as long as the axis stands still; one that follows a little gets the last."""
-    before: Moved | None = None
+    before, place = None, former.place
     for error in (*(each for each in FEELERS if each < trial.error), trial.error):
-        place = former.place if before is None else before.end
         moved = yield from _driven(c, dc.replace(trial, error=error), former, place, job)
         moved = moved if before is None else moved.with_before(before)
-        if error == trial.error or not moved.tripped or moved.toggled or moved.way < -STIRRED:
+        if error == trial.error or not moved.tripped or moved.toggled or moved.way < -RAN:
             return moved
+        place = moved.end
         if moved.way > STIRRED:
             break
-        before = moved
-    return (yield from _driven(c, trial, former, moved.end, job))
+        before = moved if moved.furthest <= STIRRED else None
+    return (yield from _driven(c, trial, former, place, job))
 
 
 def _coasted(exchange: Exchange, where: str, place: int, end: float) -> Steps[list[int]]:
