@@ -50,6 +50,7 @@ WEAK = (
     "The torque limit may be too low for the friction: go back to “Error and torque limits” and raise TL a little.",
     "Is the command wire (ACMD) connected to the drive, and the motor to the drive?",
     "Is a brake closed, or the axis at its end?",
+    "With weak gains the error limit is reached before there is force enough: allow a larger one, up to 400 counts.",
 )
 
 
