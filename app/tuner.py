@@ -130,7 +130,7 @@ class Tuner(QObject):
         from device.tuning.run import run_step
 
         job = run_step(self._connection.controller, self.wish(asked), self.folder, self._now())
-        self._begin(job, f"Measuring a step of {asked.axis}", lambda measured: then(measured, method))
+        self._begin(job, f"Step of {asked.axis}", lambda measured: then(measured, method))
 
     def _automatic(self, asked: Asked) -> None:
         if asked.drive != UNSURE:

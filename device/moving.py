@@ -158,6 +158,7 @@ class Motion:
         self._now: Lease | Going | Drive | None = None
         self._ended: Future[Any] | None = None
         self.setup: Setup | None = None
+        self.taken = ""  # why nothing may be moved by hand: an axis is being tuned
         self.latch = False
 
     # ---------------------------------------------------------------- holding
@@ -359,6 +360,8 @@ class Motion:
         c = self._c
         if not c.control:
             return "this is Watch. Take Control first."
+        if self.taken:
+            return self.taken
         if self._busy() and self._now is not None and self._now.held and self._now.owner != owner:
             return f"{self.busy} {ONE_HAND.format(self._now.owner or 'elsewhere')}"
         missing = [letter for letter in axes if letter not in c.axes]

@@ -163,6 +163,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
         scope_scenes,
         teach_scenes,
     )
+    from tests.tuner_pictures import tuner_scenes
 
     studio, document = stage.studio, stage.studio.session.document
     axis = dc.replace(document.setup.axes[0], reverse_limit="-5", forward_limit="25")
@@ -182,6 +183,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from event_scenes(stage)
     yield from doctor_scenes(stage)
     yield from scope_scenes(stage)
+    yield from tuner_scenes(stage)
     yield from commissioning_scenes(stage)
     yield from teach_scenes(stage)
     yield from replay_scenes(stage)

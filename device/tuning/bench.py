@@ -22,7 +22,6 @@ from device.download import Job, proved
 from device.lease import at
 from device.tasks import LinkError, Steps, Wait
 from device.tuning.automatic import Chosen, Search, Seen, search, vibrates
-from device.tuning.entry import gains_words
 from device.tuning.excite import Excitation, NotIdentified, excitation
 from device.tuning.guards import Cancelled, Fault, Former, Guard, assign, not_stopped, ready, watch
 from device.tuning.loop import Gains, period
@@ -175,7 +174,7 @@ class Bench:
                 return Found(chosen.gains, chosen.words, tuple(trials))
             self._check()
             self.trials += 1
-            self.job.show(f"trial {self.trials}: {gains_words(trial.gains)}", self.trials, 0)
+            self.job.show(f"trial {self.trials}", self.trials, 0)
             measured = yield from self.step(counts, trial.gains, wish.seconds, TRIAL_VALUES)
             trials.append(measured)
             tell(measured, trial.why)
@@ -289,15 +288,16 @@ class Bench:
         yield from proved(self.c.nonces, f"ST {self.axis}", LINE_S, REFUSAL_S)
 
     def _response(self, capture: Capture, counts: int) -> Response:
-        """From 0, with a little rest before the step. The error tells when the step began: it jumps by it."""
+        """From 0, with a little rest before the step, which falls within a sample of the first element."""
         volts, error = (capture.of(Channel(name, self.axis)) for name in ("torque", "error"))
-        began = int(np.argmax(np.abs(error) > abs(counts) / 2))
-        commanded = np.where(np.arange(len(error)) >= began, float(counts), 0.0)
+        stepped = np.arange(len(error)) >= int(np.argmax(np.abs(error) > abs(counts) / 2))
+        actual = np.where(stepped, float(counts), 0.0) - error
+        commanded = np.where(np.arange(len(error)) >= 1, float(counts), 0.0)
         rest = np.zeros(BEFORE)
         return Response(
             capture.interval_s,
             np.concatenate([rest, commanded]),
-            np.concatenate([rest, commanded - error]),
+            np.concatenate([rest, actual]),
             np.concatenate([rest + self.inside.offset, volts]),
         )
 

@@ -162,6 +162,18 @@ def meant(former: Former, c: Controller) -> bool:
 
 def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], Steps[T]], now: datetime) -> Steps[T]:
     """Narrows, runs `body`, puts back; what can not be put back now stays on disk."""
+    if c.motion.busy:
+        raise NotAllowed(f"Not started: {c.motion.busy} is moved by hand. Let go first.")
+    c.motion.taken = f"axis {guard.axis} is being tuned. Wait for its end, or cancel it."
+    try:
+        return (yield from _inside_guards(c, guard, folder, body, now))
+    finally:
+        c.motion.taken = ""
+
+
+def _inside_guards(
+    c: Controller, guard: Guard, folder: Path, body: Callable[[Former], Steps[T]], now: datetime
+) -> Steps[T]:
     former = yield from begin(c, guard, folder, now)
     began = c.clock()
     try:

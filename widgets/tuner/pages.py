@@ -112,7 +112,8 @@ class ModelPage(QWidget):
             field.returnPressed.connect(self._typed)
             grid.addWidget(QLabel(name), row, 0)
             grid.addWidget(field, row, 1)
-        grid.addWidget(self.apply, 0, 2, 2, 1)
+        grid.addWidget(self.apply, 0, 2)
+        grid.addWidget(self.run, 1, 2)
         grid.setColumnStretch(3, 1)
         self.apply.clicked.connect(self._typed)
         self.run.clicked.connect(self.run_wanted)
@@ -121,7 +122,6 @@ class ModelPage(QWidget):
         column.addLayout(grid)
         column.addWidget(self.margins)
         column.addWidget(self.result)
-        column.addWidget(self.run)
         column.addStretch(1)
         self.show_usable(False, "Identify the axis first.")
 

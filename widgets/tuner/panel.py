@@ -283,11 +283,6 @@ class TunerPanel(Panel):
         column.setSpacing(8)
         column.addLayout(self._top())
         column.addLayout(self._gains_side())
-        column.addWidget(self.box)
-        self.result.setWordWrap(True)
-        self.result.setProperty("role", "quiet")
-        self.result.setAccessibleName("Result")
-        column.addWidget(self.result)
         column.addStretch(1)
         self._scroll = QScrollArea()
         self._scroll.setWidgetResizable(True)
@@ -297,9 +292,23 @@ class TunerPanel(Panel):
         self._scroll.setWidget(left)
         self._box_layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self._area)
         self._box_layout.setContentsMargins(0, 0, 0, 0)
-        self._box_layout.addWidget(self._scroll)
+        self._box_layout.addWidget(self._controls())
         self._box_layout.addWidget(self._right(), 1)
         self._turn()
+
+    def _controls(self) -> QWidget:
+        """The page may scroll; what starts and ends a run, and how it ended, stays in sight."""
+        self.result.setWordWrap(True)
+        self.result.setProperty("role", "quiet")
+        self.result.setAccessibleName("Result")
+        self._side = QWidget()
+        column = QVBoxLayout(self._side)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.setSpacing(8)
+        column.addWidget(self._scroll, 1)
+        column.addWidget(self.box)
+        column.addWidget(self.result)
+        return self._side
 
     def _gains_side(self) -> QVBoxLayout:
         column = QVBoxLayout()
@@ -361,9 +370,9 @@ class TunerPanel(Panel):
         direction = QBoxLayout.Direction.LeftToRight if wide else QBoxLayout.Direction.TopToBottom
         if self._box_layout.direction() is not direction:
             self._box_layout.setDirection(direction)
-        self._scroll.setMaximumWidth(LEFT + 24 if wide else 16_777_215)
-        self._scroll.setMinimumWidth(LEFT if wide else 0)
-        self._scroll.setMinimumHeight(0 if wide else self.height() // 2)
+        self._side.setMaximumWidth(LEFT + 24 if wide else 16_777_215)
+        self._side.setMinimumWidth(LEFT if wide else 0)
+        self._side.setMinimumHeight(0 if wide else self.height() // 2)
 
 
 def metrics_words(metrics: Metrics | None) -> str:

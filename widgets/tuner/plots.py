@@ -22,6 +22,7 @@ from widgets.parts.plot import Plot
 
 MS = 1000.0
 HERTZ = 2 * math.pi  # rad/s
+HERTZ_TICKS = [digit * 10.0**decade for decade in range(-2, 4) for digit in (1, 2, 5)]
 OVERLAYS = ("axis_y", "axis_z", "axis_w", "group_math", "group_flow", "group_limits")
 
 
@@ -139,6 +140,7 @@ class BodePlot(QWidget):
         self.phase.setXLink(self.gain)
         for plot in (self.gain, self.phase):
             plot.setLogMode(x=True, y=False)
+            plot.getAxis("bottom").setTicks([[(math.log10(each), f"{each:g}") for each in HERTZ_TICKS]])
         self.gain.addLegend(offset=(-8, 8))
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

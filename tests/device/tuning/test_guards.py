@@ -151,6 +151,27 @@ def test_a_loop_that_runs_away_is_switched_off_and_set_back(tmp_path: Path) -> N
     assert not list(tmp_path.iterdir())
 
 
+def test_nobody_moves_it_by_hand_meanwhile(tmp_path: Path) -> None:
+    rig = ready()
+
+    def body(former: Former) -> Steps[str]:
+        yield Wait(0.3)
+        return "done"
+
+    future = begin(rig, tmp_path, body)
+    rig.until(lambda: held(rig)["OE"] == 1)
+    with pytest.raises(NotAllowed, match="axis X is being tuned"):
+        rig.result(rig.controller.motion.hold("X", 5000, 256000, 256000, "mouse"))
+    assert rig.result(future) == "done"
+    held_now = rig.controller.motion.hold("X", 5000, 256000, 256000, "mouse")
+    rig.until(lambda: rig.moving)
+    with pytest.raises(NotAllowed, match="moved by hand"):
+        rig.result(begin(rig, tmp_path, body))
+    rig.controller.motion.release("mouse")
+    rig.result(held_now)
+    assert_former(rig)
+
+
 def test_stop_ends_the_run_and_the_former_values_come_back(tmp_path: Path) -> None:
     rig = ready()
 

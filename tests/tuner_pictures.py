@@ -1,0 +1,80 @@
+"""The tuner for pictures: a step by hand, trials, a model with its prediction measured, the logbook and its report."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import time
+from collections.abc import Callable, Iterator
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+
+from codegen.setup_axis import Unit
+from tests.stage import Stage
+from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MANUAL, MODEL, TunerPanel
+
+PATIENCE_S = 60
+
+
+def tuner_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """On one axis in millimetres."""
+    studio = stage.studio
+    document = studio.session.document
+    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit="500", reverse_limit="", forward_limit="")
+    setup = dc.replace(document.setup, model="ssc2", axes=(axis,) * 4, serial_number="")
+    studio.session.set_document(dc.replace(document, setup=setup), "A table")
+    rig = stage.connect("simulator", "ssc2")
+    rig.type("SH")
+    studio.actions["layout_tune"].trigger()
+    studio.actions["tune"].trigger()
+    stage.go()
+    panel, part = studio.at_machine.tuning.panel, studio.at_machine.tuning
+    for gains in (("6", "64"), ("12", "150")):
+        for name, text in zip(("KP", "KD"), gains, strict=True):
+            panel.manual.gains.fields[name].setText(text)
+            panel.manual.gains.fields[name].textEdited.emit(text)
+        _run(stage, panel)
+    yield "tuner-manual", studio.window
+    panel.open_page(AUTOMATIC)
+    panel.box.drive.setCurrentIndex(1)
+    _run(stage, panel)
+    yield "tuner-automatic", studio.window
+    panel.open_page(MODEL)
+    _run(stage, panel)
+    _until(stage, lambda: part.tuner.model.proposal is not None)
+    _run(stage, panel, panel.model.run)
+    yield "tuner-model", studio.window
+    panel.open_page(LOGBOOK)
+    page = panel.logbook
+    page.runs.setCurrentRow(0)
+    page.runs.item(2).setCheckState(Qt.CheckState.Checked)
+    page.note.setText("Belt tightened")
+    page.note.editingFinished.emit()
+    stage.go()
+    yield "tuner-logbook", studio.window
+    page.report.click()
+    stage.go()
+    assert part.book.preview is not None
+    yield "tuner-report", part.book.preview
+    part.book.preview.close()
+    panel.open_page(MANUAL)
+    studio.desk.arrange("Program")
+
+
+def _run(stage: Stage, panel: TunerPanel, button: QWidget | None = None) -> None:
+    _until(stage, lambda: panel.box.words.text().startswith("X moves by"))
+    if not panel.box.free.isChecked():
+        panel.box.free.click()
+    stage.go()
+    (button or panel.box.begin).click()  # type: ignore[attr-defined]
+    _until(stage, lambda: not panel.running)
+    stage.go(30)
+
+
+def _until(stage: Stage, true: Callable[[], object]) -> None:
+    """Where a thread of its own works as well."""
+    end = time.monotonic() + PATIENCE_S
+    while not true():
+        assert time.monotonic() < end
+        stage.go(1)
+        time.sleep(0.001)
