@@ -201,8 +201,9 @@ def test_an_axis_without_a_scale_is_shown_in_counts_and_says_so(qtbot: QtBot) ->
 
 
 def test_a_moving_axis_says_so_with_its_speed(bench: Bench) -> None:
+    pace = 19_200 / (bench.rig.controller.line.baud or 19_200)
     bench.rig.type("JG 3184", "BGX")
-    bench.rig.run(1.0)
+    bench.rig.run(1.0 * pace)  # every value was read since it runs evenly
     words = bench.until("▲")
     found = re.search(r"X axis: ([-\d.]+) in, ▲ ([-\d.]+) in/s", words)
     assert found is not None
@@ -211,10 +212,8 @@ def test_a_moving_axis_says_so_with_its_speed(bench: Bench) -> None:
     row, clock = bench.rig.controller.last(), bench.rig.clock()
     actual = bench.rig.simulation.state()["axes"]["X"]["actual"]
     read_at = actual - 3184 * (clock - row.time("position.x"))
-    pace = 19_200 / (bench.rig.controller.line.baud or 19_200)
-    assert float(found[1]) == pytest.approx(
-        read_at / 637, abs=3184 / 637 * 0.05 * pace
-    )  # an answer takes up to 50 ms at 19 200
+    reach = 3184 / 637 * 0.05 * pace  # an answer takes up to 50 ms at 19 200
+    assert float(found[1]) == pytest.approx(read_at / 637, abs=reach)
 
 
 def test_where_the_axis_stands_between_its_limits(bench: Bench) -> None:
