@@ -14,7 +14,7 @@ from app.connection import Connection
 from app.tick import Tick, failure_of
 from codegen.teach_drive import ramps_of, speeds_of
 from device.api import StopState
-from widgets.teach.panel import JOYSTICK, PLACES, VOLTS, TeachPanel
+from widgets.teach.panel import JOYSTICK, PLACES, VOLTS, TeachPanel, is_fresh
 
 if TYPE_CHECKING:
     from codegen.setup import Setup
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 OWNER = "teach"
 FORGOTTEN_S = 180.0  # in its middle for so long: driving ends
+SILENT_S = 2.0  # without a reading of the joystick: driving ends
 CENTRED_S = 0.4  # in its middle for so long: the axes are given back
 RECORD, DONE = 0b0100_0000, 0b1000_0000  # inputs 7 and 8 (SSC manual, figure 2.5)
 
@@ -47,6 +48,7 @@ class TeachDrive(QObject):
         self._centred = 0.0  # since when
         self._released: int | None = None  # the inputs while nobody presses a button
         self._pressed = 0
+        self._heard = 0.0  # when the stick was known last
         panel.enable_wanted.connect(self.enable)
         tick.each(self.look)
 
@@ -58,6 +60,7 @@ class TeachDrive(QObject):
     def enable(self, on: bool) -> None:
         """Begins, or ends and lets everything go."""
         self._armed, self._centred, self._released, self._pressed = False, 0.0, None, 0
+        self._heard = self._clock()
         if on and not self._panel.reason:
             self._panel.show_result("Let the stick stand in its middle once; then it drives.")
         elif self.drives:
@@ -72,12 +75,14 @@ class TeachDrive(QObject):
             self._panel.ended(why)
             return
         across, upward = self._panel.pushed
-        if not math.isfinite(across) or not math.isfinite(upward):
-            across = upward = 0.0
-            if self._armed and self._panel.source == JOYSTICK:
-                self._panel.ended("Driving ended: the joystick's voltages are not read any more.")
-                return
-        self._steer(across, upward)
+        known = math.isfinite(across) and math.isfinite(upward)
+        if known:
+            self._heard = self._clock()
+            self._armed |= across == 0 and upward == 0
+        elif self._clock() - self._heard > SILENT_S:
+            self._panel.ended("Driving ended: the joystick's voltages are not read any more.")
+            return
+        self._steer(across if known else 0.0, upward if known else 0.0)  # unknown: as if it were let go
         if self._panel.enabled and self._panel.source == JOYSTICK:
             self._buttons()
 
@@ -96,7 +101,6 @@ class TeachDrive(QObject):
         """The joystick at the controller keeps the axes all the time: only so its voltages are read often enough."""
         now, motion, setup = self._clock(), self._connection.controller.motion, self._panel.setup
         still, joystick = across == 0 and upward == 0, self._panel.source == JOYSTICK
-        self._armed |= still
         if not still or not self._centred:
             self._centred = now
         if setup is None:
@@ -135,7 +139,7 @@ class TeachDrive(QObject):
     def _buttons(self) -> None:
         """The two buttons of the joystick: an input that changes from what it was while nobody pressed it."""
         row = self._connection.controller.last()
-        if not math.isfinite(row.value("inputs")) or row.stale("inputs", self._clock()):
+        if not math.isfinite(row.value("inputs")) or not is_fresh(row, "inputs", self._clock()):
             return
         inputs = int(row.value("inputs")) & (RECORD | DONE)
         if self._released is None:

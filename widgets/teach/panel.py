@@ -43,6 +43,14 @@ ENDS = {
 VOLTS = ("analog1", "analog2")
 
 
+OLDEST_S = 0.7  # of a reading that may drive or record; a slow line brings two in a second
+
+
+def is_fresh(row: Row, key: str, now: float) -> bool:
+    """Whether a reading is new enough to act on."""
+    return now - row.time(key) <= OLDEST_S
+
+
 class TeachPanel(Panel):
     """Asks by signals; whoever joins it owns the table and hands it back."""
 
@@ -134,7 +142,7 @@ class TeachPanel(Panel):
         if self.parts is None:
             self._make_parts()
         now = self._clock()
-        self.volts = tuple(math.nan if row.stale(key, now) else row.value(key) for key in VOLTS)  # type: ignore[assignment]
+        self.volts = tuple(row.value(key) if is_fresh(row, key, now) else math.nan for key in VOLTS)  # type: ignore[assignment]
         if self.enabled and self.reason:
             self.ended(self.reason)
         self._show_usable()

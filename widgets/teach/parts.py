@@ -267,7 +267,12 @@ class Parts(QWidget):
         for button in (self.record, self.wait, self.output, self.done):
             button.setMinimumHeight(look().space["touch"])
         self._column.addLayout(_row(self.record, self.wait, self.output, self.done))
-        self._column.addLayout(_row(self.way, self.io_control))
+        ticks = QHBoxLayout()
+        ticks.setSpacing(16)
+        ticks.addWidget(self.way)
+        ticks.addWidget(self.io_control)
+        ticks.addStretch(1)
+        self._column.addLayout(ticks)
         self._column.addLayout(_row(self.how, self.play, self.next, self.halt))
         self._column.addWidget(self.view, 3)
         self.message.setWordWrap(True)
