@@ -172,3 +172,31 @@ def test_the_window_answers_while_the_link_works(studio: Studio) -> None:
     print({name: [round(each, 1) for each in pauses[:4]] for name, pauses in found.items()})
     limit = LIMIT_MS * max(1.0, max(before, beside()) / FULL_SPEED_MS)
     assert {name: pauses[:3] for name, pauses in found.items() if pauses[1] > limit} == {}
+
+
+@pytest.mark.alone
+@pytest.mark.long
+@pytest.mark.timeout(600)
+def test_connecting_with_each_panel_in_front(studio: Studio) -> None:
+    """Panels make what they show when a controller is there: so each is in front once when that happens."""
+    heart, found = Heart(), {}
+    studio.window.resize(1280, 800)
+    until(lambda: studio.window.isVisible(), "the window")
+    QTest.qWait(200)
+    before = beside()
+    for title in list(studio.window.docks):
+        studio.connection.go_offline()
+        studio.desk.bring(title)
+        QTest.qWait(300)
+        heart.start()
+        studio.connection.open_simulator("ssc2", LineSettings(baud=19200))
+        until(lambda: studio.connection.controller.state is State.READY, "the controller")
+        QTest.qWait(300)
+        found[title] = heart.stop()[:3]
+        record(
+            f"longest pause while connecting, {title}", "pytest tests/app/test_speed.py", None, found[title][0], "ms"
+        )
+    print({title: [round(each, 1) for each in pauses] for title, pauses in found.items()})
+    limit = LIMIT_MS * max(1.0, max(before, beside()) / FULL_SPEED_MS)
+    too_long = {title: pauses for title, pauses in found.items() if pauses[0] > 2 * limit or pauses[1] > limit}
+    assert not too_long  # one pause may have been lengthened by the system, but not for ever
