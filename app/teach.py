@@ -231,6 +231,7 @@ class Teach(QObject):
             self._panel.show_result(f"Not recorded. {self._panel.problem}.", good=False)
             return
         self._panel.show_way(on)
+        self.drive.again()
         if on:
             self._seen = []
             self._panel.show_result("The whole way is recorded until you take the tick away.")

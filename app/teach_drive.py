@@ -67,6 +67,11 @@ class TeachDrive(QObject):
             self._connection.controller.motion.release(OWNER)
         self._panel.show_enabled(on and not self._panel.reason)
 
+    def again(self) -> None:
+        """Other values are to be read along the way: the axes are taken anew."""
+        if self.drives:
+            self._connection.controller.motion.release(OWNER)
+
     def look(self) -> None:
         """With every tick."""
         if not self._panel.enabled:
@@ -121,8 +126,8 @@ class TeachDrive(QObject):
         motion = self._connection.controller.motion
         motion.setup = setup
         ramps = ramps_of(self._panel.driving, setup)
-        along = (*PLACES, "inputs", *VOLTS) if self._panel.source == JOYSTICK else PLACES
-        self._held = motion.drive(speeds, ramps, ramps, OWNER, along)
+        along = ("inputs", *VOLTS) if self._panel.source == JOYSTICK else ()
+        self._held = motion.drive(speeds, ramps, ramps, OWNER, (*along, *PLACES) if self._panel.way else along)
         self._tick.when_done(self._held, self._ran)
 
     def _ran(self, future: Future[Any]) -> None:

@@ -323,6 +323,7 @@ class Drive:
                     yield from track.turn(lambda: self.held)
             for request in self.along if self.held else ():
                 yield from self._read(request)
+            yield Wait(0.005)  # on a slow line too there is room for what somebody else wants
 
     def _read(self, request: Sequence[tuple[str, str, Shape]]) -> Steps[None]:
         answer = yield from read_once(self.exchange.nonces, *((expression, shape) for _, expression, shape in request))

@@ -101,7 +101,7 @@ class TeachPanel(Panel):
     def watches(self) -> tuple[str, ...]:
         if self.parts is None:
             return ()
-        way = PLACES if self.parts.way.isChecked() else ()
+        way = PLACES if self.way else ()
         return (*SHOWN, *way, *(VOLTS if self.source == JOYSTICK else ()), *(("inputs",) if self.enabled else ()))
 
     @property
@@ -120,6 +120,11 @@ class TeachPanel(Panel):
         if len(controller.axes) == 1 or (self.setup is not None and len(self.setup.letters) == 1):
             return ONE_AXIS
         return "" if controller.control else WATCHED
+
+    @property
+    def way(self) -> bool:
+        """Whether the whole way is recorded."""
+        return self.parts is not None and self.parts.way.isChecked()
 
     @property
     def problem(self) -> str:
