@@ -104,7 +104,7 @@ def test_stop_while_the_record_is_read_ends_the_trials(tmp_path: Path) -> None:
 
 def test_automatic_tuning_makes_it_better_and_puts_the_former_gains_back(tmp_path: Path) -> None:
     rig = ready()
-    rig.type("KDX=150")  # not from the very beginning
+    rig.type("KPX=20;KDX=400")  # not from the very beginning
     told: list[tuple[Measured, str]] = []
     wish = Wish("X", 400, GOOD, seconds=0.4)
     found = done(
@@ -114,8 +114,8 @@ def test_automatic_tuning_makes_it_better_and_puts_the_former_gains_back(tmp_pat
     )
     assert found.gains is not None, found.words
     assert len(told) == len(found.trials) >= 4 and all(why for _, why in told)
-    assert found.gains.kd >= 150 and found.gains.kp > 6  # KD and KP went up (ssc-tol-o-motion.txt l.2938)
-    assert held(rig) == {**FACTORY, "KD": 150}  # recommended, not set
+    assert found.gains.kd >= 400 and found.gains.kp > 20  # KD and KP went up (ssc-tol-o-motion.txt l.2938)
+    assert held(rig) == {"KP": 20, "KI": 0, "KD": 400}  # recommended, not set
     first = told[0][0].metrics
     best = done(rig, run_step(rig.controller, Wish("X", 400, found.gains, seconds=0.4), tmp_path, WHEN))
     assert first is not None and best.metrics is not None and best.metrics.settling_time is not None
