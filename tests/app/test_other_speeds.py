@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 # those whose steps need no particular pace: what is seen for the time of a tick only is left to 19 200
 PANELS = (
     *(f"tests/widgets/{name}" for name in (
-        "commissioning", "display", "jog", "plane", "scope", "simulator", "terminal", "values",
+        "commissioning", "display", "jog", "plane", "scope", "simulator", "teach/test_teach.py", "terminal", "values",
     )),
     *(f"tests/app/test_{name}.py" for name in (
         "backups", "doctor_desk", "editor", "event_list", "live_values", "operator", "recorder", "slow_run", "stop",

@@ -114,9 +114,11 @@ def a_whole_way_with_a_pause(bench: Bench) -> None:
     """Becomes rows: along X, a pause, along Y."""
     bench.enable()
     bench.click(bench.parts.way)
+    bench.stage.until(lambda: bench.stage.controller.motion.busy)
+    bench.stage.go(4 * PRESS)
     for x, y in ((1, 0), (0, 0), (0, 1)):
         bench.push(x, y)
-        bench.stage.go(35)
+        bench.stage.go(70 if ALONE else 35)
     bench.push(0, 0)
     bench.still()
     bench.click(bench.parts.way)
