@@ -41,7 +41,7 @@ setup.tls      the setup alone
 controller.dmc the program that was last read from the controller, where it is known
 versions.txt   versions, operating system, controller
 window.png     the window as it was
-recording.tlr  the last hours: all bytes of the line, what was done; File > Open recording or bundle plays it
+recording.tape the last hours: all bytes of the line, what was done; File > Open recording or bundle plays it
 back-up.tlb    the newest back-up of this controller, where there is one
 """
 

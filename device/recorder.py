@@ -25,7 +25,7 @@ FILE_BYTES = 1_000_000
 WRITE_S = 0.5
 TOGETHER_S = 0.004  # pieces of one stream that come so close to each other are kept as one
 QUEUE_BYTES = 65_536  # where no thread writes: so much waits at most
-SUFFIX = ".tlr"
+SUFFIX = ".tape"
 
 Queued: TypeAlias = tuple[float, What, int, "bytes | tuple[str, Payload]"]
 

@@ -17,7 +17,7 @@ from device.recorder_format import MARK, MOST_BYTES, Flag, Payload, Record, What
 
 QUIET_S = 30.0  # a longer time without anything is left out
 GAP_S = 1.0  # what is left of it
-IN_BUNDLE = "recording.tlr"
+IN_BUNDLE = "recording.tape"
 MOST_READ = 500_000_000  # bytes
 
 

@@ -207,7 +207,7 @@ def test_a_bundle_from_one_studio_opens_in_another(stage: Stage, other: Stage, t
     happened.save_bundle(path)
     stage.until(lambda: happened._writing is None)
     with zipfile.ZipFile(path) as bundle:
-        assert "recording.tlr" in bundle.namelist()
+        assert "recording.tape" in bundle.namelist()
     other.studio.actions["open_recording"].trigger()  # asks for a file; the panel is in front
     other.go()
     assert panel_of(other).isVisible()
@@ -233,12 +233,12 @@ def test_what_can_not_be_opened_is_said(stage: Stage, tmp_path: Path) -> None:
     studio.at_machine.recorded.open_path(letter)
     wait(stage, lambda: said)
     assert said == [
-        "letter.txt is no recording and no service bundle; choose a file ending in .tlr or a service bundle (.zip)."
+        "letter.txt is no recording and no service bundle; choose a file ending in .tape or a service bundle (.zip)."
     ]
     recorded(stage)
     studio.recorder.flush()
     stage.type("TP")
-    saved = tmp_path / "day.tlr"
+    saved = tmp_path / "day.tape"
     studio.at_machine.recorded.save(saved)
     wait(stage, saved.is_file)
     wait(stage, lambda: studio.at_machine.recorded._working is None)
@@ -247,4 +247,4 @@ def test_what_can_not_be_opened_is_said(stage: Stage, tmp_path: Path) -> None:
     saved.write_bytes(data)
     studio.at_machine.recorded.open_path(saved)
     wait(stage, lambda: stage.controller.kind is Kind.REPLAY)
-    assert panel_of(stage).problem.text() == "A piece of day.tlr can not be read; what is whole is played."
+    assert panel_of(stage).problem.text() == "A piece of day.tape can not be read; what is whole is played."

@@ -81,7 +81,7 @@ class Taped:
 
     def recording(self) -> Recording:
         self.recorder.flush()
-        return Recording(joined(self.recorder.files()), "test.tlr")
+        return Recording(joined(self.recorder.files()), "test.tape")
 
 
 class Played:

@@ -38,9 +38,9 @@ def test_damage_takes_only_what_it_hit(tmp_path: Path) -> None:
     assert len(fresh) > 2
     hurt = bytearray(whole)
     hurt[fresh[1].start + 5] ^= 0x40  # one bit
-    recording = Recording(bytes(hurt), "monday.tlr")
+    recording = Recording(bytes(hurt), "monday.tape")
     left = [each.record for each in recording.records()]
-    assert recording.problem == "A piece of monday.tlr can not be read; what is whole is played."
+    assert recording.problem == "A piece of monday.tape can not be read; what is whole is played."
     begin = next(n for n, each in enumerate(clean) if each.at >= fresh[1].first)
     end = next(n for n, each in enumerate(clean) if each.at >= fresh[2].first)
     assert left == clean[:begin] + clean[end:]
@@ -62,9 +62,9 @@ def test_every_cut_of_a_recording_can_be_opened(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "data", "words"),
     [
-        ("empty.tlr", b"", "is no recording and no service bundle"),
+        ("empty.tape", b"", "is no recording and no service bundle"),
         ("letter.txt", b"Dear Sir", "is no recording and no service bundle"),
-        ("broken.tlr", MARK + b"\0" * 60, "holds nothing that can be read"),
+        ("broken.tape", MARK + b"\0" * 60, "holds nothing that can be read"),
     ],
 )
 def test_what_is_no_recording_is_said_in_a_sentence(tmp_path: Path, name: str, data: bytes, words: str) -> None:
@@ -73,7 +73,7 @@ def test_what_is_no_recording_is_said_in_a_sentence(tmp_path: Path, name: str, d
     with pytest.raises(RecordingUnreadable, match=words):
         open_recording(path)
     with pytest.raises(RecordingUnreadable, match="No such file"):
-        open_recording(tmp_path / "missing.tlr")
+        open_recording(tmp_path / "missing.tape")
 
 
 def test_a_bundle_without_a_recording_is_said(tmp_path: Path) -> None:

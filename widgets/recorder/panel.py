@@ -187,7 +187,7 @@ class RecorderPanel(Panel):
             button.setIcon(icon(name))
             head.addWidget(button)
         self.replay.setToolTip("Plays everything that is kept; the connection is closed first")
-        self.open.setToolTip("A recording (.tlr) or a service bundle (.zip), also from another computer")
+        self.open.setToolTip("A recording (.tape) or a service bundle (.zip), also from another computer")
         self.open.setAccessibleName("Open recording or bundle")
         self.save.setToolTip("Writes everything that is kept into one file")
         self.leave.setToolTip("Closes the recording")
