@@ -7,6 +7,7 @@ import math
 import time
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,10 +19,11 @@ from shiboken6 import isValid
 from codegen.twoletter.fixed import ONE
 from device.capture import Channel
 from device.capture_file import load
+from device.simulator.plant import Drive, Plant
 from device.tuning.guards import Former, keep, left_behind
 from device.tuning.logbook import Logbook
 from tests.app.test_controls import controls, describe, name_of, reachable
-from tests.long import record
+from tests.long import is_long, record
 from tests.rig import Rig
 from tests.stage import Stage
 from widgets.help.topic import topic_of
@@ -32,9 +34,9 @@ GAINS = {"KP": 6.0, "KI": 0.0, "KD": 64.0}
 TICK_CPU_S = 0.05
 
 
-def tuner(stage: Stage, kind: str = "simulator", model: str = "ssc1") -> TunerPanel:
+def tuner(stage: Stage, kind: str = "simulator", model: str = "ssc1", **more: Any) -> TunerPanel:
     """Connected, in Control, the motor on, the tuner in front, the axis' place known."""
-    rig = stage.connect(kind, model)
+    rig = stage.connect(kind, model, **more)
     rig.controller.take_control()
     rig.type("SH")
     stage.studio.actions["tune"].trigger()
@@ -270,6 +272,17 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
         slowest[-2] * 1000,
         "ms of CPU",
     )
+
+
+@pytest.mark.skipif(not is_long(), reason="identifying takes seconds; the everyday run does it once")
+def test_a_drive_in_velocity_mode_is_recognised_and_refused(stage: Stage) -> None:
+    panel = tuner(stage, plants={"X": Plant(drive=Drive.VELOCITY)})
+    click(panel.buttons[AUTOMATIC])
+    assert panel.box.drive.currentText().startswith("Not sure")
+    run(stage, panel)
+    worked(stage, lambda: not panel.running and "auto tune" in panel.result.text())
+    assert "do not perform an auto tune; instead proceed to manual tuning" in panel.result.text()
+    assert panel.automatic.trials.count() == 0 and held(stage.rig) == GAINS
 
 
 def watched_ticks(stage: Stage) -> list[float]:
