@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
-from codegen.twoletter.problems import ERROR_TEXTS, STOP_TEXTS
+from codegen.twoletter.problems import ARRIVED, ERROR_TEXTS, RUNNING, STOP_STEPS, STOP_TEXTS, USUAL_STEP, error_step
 from device.events import Event, EventList, What
 from device.happenings import Notice, NoticeKind
 from device.stop import StopState
@@ -23,32 +23,10 @@ if TYPE_CHECKING:
 WATCHED = ("stop_code", "motor_off", "position")
 CAUSE_S = 3.0  # so long an error waits for its code
 TOLD = re.compile(r"\?(\d{3}) (.*)")
-RUNNING, ARRIVED = frozenset({0, 50, 100}), frozenset({1, 51, 101})
 FORWARD, REVERSE, STOP_COMMAND, OFF_ON_ERROR = 2, 3, 4, 8
 BURNS = frozenset({"BN", "BP", "BV"})
 LOOK_S = 0.2  # between two looks
 HAND_S = 2.0  # so long a stop belongs to the hand that let go
-
-# what to do next: after a stop code, and after an error of a program
-STOP_STEPS = {
-    2: "Move the axis back in reverse; if it is not at the switch, look at FL, CN and the wiring of the limit.",
-    3: "Move the axis back forward; if it is not at the switch, look at BL, CN and the wiring of the limit.",
-    4: "Start again when the reason of the stop is gone.",
-    6: "Free the abort input, then switch the motors on (SH).",
-    7: "Switch the motors on (SH) where off-on-error switched them off.",
-    8: "Look for something that blocks the axis, at KP, TL and ER; then switch the motor on (SH).",
-    99: "The axis did not come to rest in the time of TW: look at the gains, at friction, at TW.",
-}
-ERROR_STEPS = {
-    1: "Look at the spelling of the line.",
-    4: "Look at the numbers and names of the line.",
-    6: "Look at the range of the number in the help of the command.",
-    7: "Wait for the end of the motion (AM) before this line.",
-    20: "Switch the motor on (SH) before the move begins.",
-    21: "Wait for the end of the motion (AM) before the next one begins.",
-    22: "Move away from the limit switch first.",
-}
-USUAL_STEP = "Look at the line, and at the help of its command."
 
 
 class EventsHeard:
@@ -181,13 +159,15 @@ class EventsHeard:
             waiting = [(number, told) for number, told in waiting if at <= told]
             if self._error not in (code, -1.0) and code and not self._unexplained:
                 words = ERROR_TEXTS.get(int(code), "unknown error")
-                self._add(controller, What.REFUSED, f"Error {int(code)}: {words}.", cause=words, step=_step(int(code)))
+                self._add(
+                    controller, What.REFUSED, f"Error {int(code)}: {words}.", cause=words, step=error_step(int(code))
+                )
             self._error = code
         self._unexplained = waiting
 
     def _explain(self, number: int, code: int) -> None:
         words = ERROR_TEXTS.get(code, "unknown error")
-        self.events.complete(number, cause=f"error {code}, {words}", step=_step(code))
+        self.events.complete(number, cause=f"error {code}, {words}", step=error_step(code))
 
     def _hear_lines(self, controller: Controller) -> None:
         """A burn that was answered, told apart from one that was refused."""
@@ -218,10 +198,6 @@ class EventsHeard:
         known = {letter: place for letter, place in places.items() if not math.isnan(place)}
         machine = controller.identity.text if controller.identity is not None else ""
         return self.events.add(Event(0, self._wall(), what, text, axis, known, thread, line, cause, step, machine))
-
-
-def _step(code: int) -> str:
-    return ERROR_STEPS.get(code, USUAL_STEP)
 
 
 def _burned(line: str) -> str:

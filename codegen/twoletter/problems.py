@@ -5,6 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from codegen.twoletter.advice import ARRIVED as ARRIVED
+from codegen.twoletter.advice import FOUND as FOUND
+from codegen.twoletter.advice import RUNNING as RUNNING
+from codegen.twoletter.advice import STOP_STEPS as STOP_STEPS
+from codegen.twoletter.advice import USUAL_STEP as USUAL_STEP
+from codegen.twoletter.advice import error_step as error_step
 from codegen.twoletter.tables import ERROR_TEXTS as ERROR_TEXTS
 from codegen.twoletter.tables import LATER_ERROR_TEXTS as LATER_ERROR_TEXTS
 from codegen.twoletter.tables import NO_BITS as NO_BITS
