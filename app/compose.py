@@ -316,6 +316,9 @@ class Studio(QObject):
         self.display.read_wanted.connect(talk.not_waiting)
         self.display.connect_wanted.connect(self.start.look)
         self.display.simulator_wanted.connect(self.start.use_simulator)
+        self.display.help_wanted.connect(self.desk.show_help)
+        self.display.setup_wanted.connect(self.session.set_setup)
+        self.display.said.connect(self.desk.say)
         self.terminal.command.connect(talk.typed)
         self.simulator.stimulus.connect(talk.stimulus)
 

@@ -37,7 +37,7 @@ ROWS: tuple[Live, ...] = (
     Live("commanded", "Commanded position", "position", "_RP{axis}"),
     Live("error", "Position error", "position", "_TE{axis}"),
     Live("velocity", "Velocity", "speed", "_TV{axis}", 8),
-    Live("torque", "Motor command", "voltage", "_TT{axis}", 2, 4),
+    Live("torque", "Motor command", "voltage", "_TT{axis}", 2, 4, slow=True),
     Live("auxiliary", "Auxiliary encoder", "position", "_TD{axis}"),
     Live("switches", "Switches", "bits", "_TS{axis}", 3),
     Live("stop_code", "Stop code", "code", "_SC{axis}", 3, slow=True),

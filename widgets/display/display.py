@@ -1,20 +1,24 @@
-"""The display: positions, inputs, outputs, switches and threads of whatever is connected."""
+"""The display: positions, codes, inputs, outputs, switches, threads and voltages of whatever is connected."""
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
+from codegen.setup import setup_problems
 from device.api import Kind, State
+from widgets.display.analog import Voltages
 from widgets.display.levels import Levels
 from widgets.display.position import AxisReadout
-from widgets.display.readings import axis_shown, fresh, rate_words, switches_of
+from widgets.display.readings import axis_shown, drive_of, fresh, rate_words, switches_of
+from widgets.display.stops import StopList, said_of
 from widgets.display.switches import SwitchTable
 from widgets.display.threads import ThreadList
 from widgets.panel import Panel, set_text
@@ -26,6 +30,7 @@ if TYPE_CHECKING:
     from device.api import Controller, Row
 
 AXIS_VALUES = ("position", "commanded", "error", "velocity", "switches", "stop_code", "latch")
+CODES = "Error and stop codes"  # the help page
 LAMP = 24  # px; inputs are read, not clicked
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see positions, inputs and outputs here."
 
@@ -40,6 +45,9 @@ class DisplayPanel(Panel):
     homed_told = Signal(str, bool)  # axis; the person says that it is homed, or that it is not
     connect_wanted = Signal()
     simulator_wanted = Signal()
+    help_wanted = Signal(str)  # page
+    setup_wanted = Signal(object, str)  # the setup with a name changed, and what was done
+    said = Signal(str)  # why it was not done
     read_wanted = Signal()  # the person knows that no program waits for an answer
 
     def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
@@ -50,10 +58,11 @@ class DisplayPanel(Panel):
         self._sentences: Mapping[int, str] = {}
         self._letters = ""
         self._threads = 0
+        self._analog: tuple[str, ...] = ()
         self.axes: dict[str, AxisReadout] = {}
         self.rate, self.empty = QLabel(), QLabel(EMPTY)
-        self.inputs, self.outputs = Levels(LAMP), Levels()
-        self.switches, self.threads = SwitchTable(), ThreadList()
+        self.inputs, self.outputs = Levels("Input", LAMP), Levels("Output")
+        self.switches, self.threads, self.stops, self.analog = SwitchTable(), ThreadList(), StopList(), Voltages()
         self.io_control = QCheckBox("I/O control")
         self.io_control.setProperty("role", "field")
         self.read_now = QPushButton("Read now")
@@ -63,6 +72,9 @@ class DisplayPanel(Panel):
         self._lay_out()
         self.io_control.clicked.connect(self.io_control_wanted)
         self.outputs.wanted.connect(self.output_wanted)
+        self.inputs.renamed.connect(partial(self._rename, "input"))
+        self.outputs.renamed.connect(partial(self._rename, "output"))
+        self.stops.more_wanted.connect(partial(self.help_wanted.emit, CODES))
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
@@ -93,7 +105,15 @@ class DisplayPanel(Panel):
 
     def watches(self) -> tuple[str, ...]:
         axes = tuple(f"{name}.{letter.lower()}" for letter in self._letters for name in AXIS_VALUES)
-        return (*axes, "inputs", "outputs", *(f"thread{number}" for number in range(self._threads)))
+        threads = (f"thread{number}" for number in range(self._threads))
+        return (*axes, "inputs", "outputs", "error_code", *threads, *self._in_sight())
+
+    def _in_sight(self) -> Iterator[str]:
+        """Voltages cost time of the line only while they can be seen: the others would come later by it."""
+        if not self.switches.visibleRegion().isEmpty():
+            yield from (f"torque.{letter.lower()}" for letter in self._letters)
+        if not self.analog.visibleRegion().isEmpty():
+            yield from self._analog
 
     def refresh(self, row: Row) -> None:
         self._fit()
@@ -101,8 +121,11 @@ class DisplayPanel(Panel):
             return
         now = self._clock()
         for letter, readout in self.axes.items():
-            readout.show_axis(axis_shown(row, letter, self._setup.axis(letter), now))
-            self.switches.show_axis(letter, switches_of(row, letter, now))
+            axis, switches = self._setup.axis(letter), switches_of(row, letter, now)
+            readout.show_axis(axis_shown(row, letter, axis, now))
+            self.switches.show_axis(letter, switches, drive_of(row, letter, axis, switches, now))
+        self.stops.show_said(said_of(row, self.axes, now))
+        self.analog.show_volts([(row.value(key), row.stale(key, now)) for key in self._analog])
         self.inputs.show_byte(row.value("inputs"), row.stale("inputs", now))
         self.outputs.show_byte(row.value("outputs"), row.stale("outputs", now))
         lines = [fresh(row, f"thread{number}", now) for number in range(self._threads)]
@@ -119,7 +142,24 @@ class DisplayPanel(Panel):
         outputs = [f"output {lamp.words}" for lamp in self.outputs.lamps]
         switches = [" ".join(self.switches.words(letter)) for letter in self.axes]
         homed = [f"{letter} {readout.homed.text()}" for letter, readout in self.axes.items() if readout.homed.text()]
-        return "\n".join([self.rate.text(), *axes, *inputs, *outputs, *switches, *homed, *self.threads.words()])
+        io = (*inputs, *outputs, *switches, f"error output {self.switches.output.text()}", *self.analog.words())
+        return "\n".join([self.rate.text(), *axes, *self.stops.words(), *io, *homed, *self.threads.words()])
+
+    def _rename(self, kind: str, number: int, name: str) -> None:
+        """A name that was typed goes into the setup, unless it would be no name there."""
+        if self._setup is None:
+            return
+        field = f"{kind}_names"
+        names = list(getattr(self._setup, field))
+        names[number - 1] = name
+        setup = dc.replace(self._setup, **{field: tuple(names)})
+        wrong = [
+            each for each in setup_problems(setup) if each.field == field and each not in setup_problems(self._setup)
+        ]
+        if wrong:
+            self.said.emit(f"{kind.capitalize()} {number} was not renamed. {wrong[0].message}.")
+        else:
+            self.setup_wanted.emit(setup, f"Rename {kind} {number}")
 
     def _show_rate(self) -> None:
         controller = self.controller
@@ -157,6 +197,10 @@ class DisplayPanel(Panel):
             self._show_axes(letters)
         self._threads = model.threads if model is not None else 1
         inputs, outputs = (model.inputs, model.outputs) if model is not None else (8, 8)
+        count = model.analog_inputs if model is not None else 0
+        self._analog = tuple(f"analog{number}" for number in range(1, count + 1))
+        self.analog.show_count(count)
+        self._voltages.setVisible(count > 0)
         self.inputs.show_names(_names(self._setup.input_names, inputs))
         self.outputs.show_names(_names(self._setup.output_names, outputs))
 
@@ -207,10 +251,16 @@ class DisplayPanel(Panel):
         self._positions = QVBoxLayout(card)
         self._positions.setContentsMargins(0, 4, 0, 4)
         column.addWidget(card)
+        column.addWidget(self.stops)
         self._add(column, "Inputs", self.inputs)
         self._add(column, "Outputs", self.outputs, self.io_control)
         self._add(column, "Switches", self.switches)
         self._add(column, "Program", self.threads)
+        self._voltages = QWidget()
+        voltages = QVBoxLayout(self._voltages)
+        voltages.setContentsMargins(0, 0, 0, 0)
+        self._add(voltages, "Analog inputs, V", self.analog)
+        column.addWidget(self._voltages)
         column.addStretch(1)
 
     def _add(self, column: QVBoxLayout, heading: str, widget: QWidget, beside: QWidget | None = None) -> None:

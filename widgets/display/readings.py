@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.numbers import parse_number
+from widgets.display.analog import volts_words
 from widgets.display.position import AxisShown
 from widgets.parts.axis_bar import Marks
 from widgets.parts.units import NOTHING, decimals_of, scale_of, shown
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from device.api import Row
 
 # bits of TS (spec/tables.json, TS_bits)
-MOVING, ERROR, MOTOR_OFF, FORWARD_FREE, REVERSE_FREE, HOME = 128, 64, 32, 8, 4, 2
+MOVING, ERROR, MOTOR_OFF, FORWARD_FREE, REVERSE_FREE, HOME, NOT_ARMED = 128, 64, 32, 8, 4, 2, 1
 # stop codes that are worth a word of their own (spec/tables.json, stop_codes)
 STOP_WORDS = {6: "abort input", 8: "off on error", 99: "not in position"}
 
@@ -31,6 +33,7 @@ class Switches:
     motor_on: bool | None = None
     moving: bool | None = None
     error: bool | None = None  # following error beyond ER
+    latch_armed: bool | None = None  # False: never armed, or it has caught a place
     stale: bool = False
 
 
@@ -48,8 +51,46 @@ def switches_of(row: Row, letter: str, now: float) -> Switches:
         motor_on=not bits & MOTOR_OFF,
         moving=bool(bits & MOVING),
         error=bool(bits & ERROR),
+        latch_armed=not bits & NOT_ARMED,
         stale=row.stale(key, now),
     )
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What an axis' column shows beside its switches."""
+
+    torque: str = "?"  # V
+    torque_stale: bool = False
+    latch: str = "?"
+    latch_stale: bool = False
+
+
+def drive_of(row: Row, letter: str, axis: Axis, switches: Switches, now: float) -> Drive:
+    """Torque, and the latch: armed, or the place it caught (in the unit of the axis)."""
+    low = letter.lower()
+    caught, old = row.value(f"latch.{low}"), row.stale(f"latch.{low}", now)
+    return Drive(
+        volts_words(row.value(f"torque.{low}")),
+        row.stale(f"torque.{low}", now),
+        _latch_words(switches.latch_armed, caught, axis),
+        switches.stale or (old and not switches.latch_armed),
+    )
+
+
+def _latch_words(armed: bool | None, caught: float, axis: Axis) -> str:
+    """Two lines at most, so that the columns of four axes stay narrow."""
+    if armed is None or (not armed and not math.isfinite(caught)):
+        return "?"
+    if armed:
+        return "▲ armed"
+    return f"◆ tripped\n{shown(caught, axis)}" if caught else "○ off"
+
+
+def error_output(axes: Iterable[Switches]) -> bool | None:
+    """Whether the one error output is on (low): an axis is beyond ER (dmc-1412-1414.txt l.4098); None: not known."""
+    told = [each.error for each in axes]
+    return True if True in told else None if None in told or not told else False
 
 
 def fault_of(switches: Switches, stop_code: float) -> str:

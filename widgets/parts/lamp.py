@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
 from widgets.parts.look import look
@@ -13,6 +13,7 @@ class Lamp(QAbstractButton):
     """One input or output: number, name, filled/hollow lamp and on/off. Clickable only when told so."""
 
     wanted = Signal(bool)  # the person wants it on (True) or off
+    rename_wanted = Signal()
 
     def __init__(self, number: int, name: str = "", height: int | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -21,11 +22,16 @@ class Lamp(QAbstractButton):
         self._name = name
         self._on: bool | None = None
         self._stale = False
-        self._switchable = False
+        self._switchable = self._renamable = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.clicked.connect(self._ask)
         self._tell()
+
+    @property
+    def name(self) -> str:
+        """The name given in the setup, or nothing."""
+        return self._name
 
     @property
     def words(self) -> str:
@@ -50,15 +56,33 @@ class Lamp(QAbstractButton):
         self.setToolTip("Click to switch." if switchable else why_not)
         if switchable != self._switchable:
             self._switchable = switchable
-            self.setFocusPolicy(Qt.FocusPolicy.StrongFocus if switchable else Qt.FocusPolicy.NoFocus)
+            self._fit_focus()
             self.setCursor(Qt.CursorShape.PointingHandCursor if switchable else Qt.CursorShape.ArrowCursor)
             self.update()
+
+    def show_renamable(self) -> None:
+        """From now on F2 and its menu ask for another name."""
+        self._renamable = True
+        self._fit_focus()
+        rename = self.addAction("Rename…\tF2")
+        rename.triggered.connect(self.rename_wanted)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+
+    def name_place(self) -> QRect:
+        """Where its name is written, for an editor over it."""
+        return self.rect().adjusted(26, 0, 0, 0)
 
     def sizeHint(self) -> QSize:
         return QSize(112, self._height or look().control)
 
     def minimumSizeHint(self) -> QSize:
         return QSize(84, self._height or look().control)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if self._renamable and event.key() == Qt.Key.Key_F2:
+            self.rename_wanted.emit()
+        else:
+            super().keyPressEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
@@ -67,6 +91,9 @@ class Lamp(QAbstractButton):
         if self._switchable:
             painter.setPen(QPen(look().colour("focus" if self.hasFocus() else "border"), 2 if self.hasFocus() else 1))
             painter.setBrush(look().colour("sunken" if self.isDown() else "raised"))
+            painter.drawRoundedRect(rect, 4, 4)
+        elif self.hasFocus():
+            painter.setPen(QPen(look().colour("focus"), 2))
             painter.drawRoundedRect(rect, 4, 4)
         self._paint_lamp(painter, QPointF(rect.left() + 14, rect.center().y()))
         self._paint_words(painter, rect.adjusted(28, 0, -8, 0))
@@ -100,6 +127,10 @@ class Lamp(QAbstractButton):
         if self._stale or self._on is None:
             return look().colour("stale")
         return look().colour("ok" if self._on else "quiet")
+
+    def _fit_focus(self) -> None:
+        reached = self._switchable or self._renamable
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus if reached else Qt.FocusPolicy.NoFocus)
 
     def _ask(self) -> None:
         if self._switchable:
