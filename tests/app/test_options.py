@@ -27,7 +27,8 @@ ELSEWHERE = {
     "layout",
     "window",
     "folded",
-}  # where a program was folded, with its file
+    "jog_speeds",
+}  # where a program was folded, with its file; speeds beside the axis in Jog
 WAYS = pytest.mark.parametrize("way", [Mouse, Keys], ids=["mouse", "keyboard"])
 
 

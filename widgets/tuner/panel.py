@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
@@ -68,7 +68,7 @@ class TunerPanel(Panel):
         super().__init__(parent)
         self._setup: Setup | None = None
         self._fitted: tuple[object, str] | None = None
-        self._made = False
+        self._made, self._making = False, self._make()
         self.judge: Callable[[Asked], Judged] = lambda asked: Judged("")
         self.running = ""  # what is under way, in words
         self.empty, self.result, self.metrics = QLabel(OFFLINE), QLabel(), QLabel()
@@ -184,7 +184,8 @@ class TunerPanel(Panel):
         if not linked or not self.isVisible() or setup is None or controller is None:
             return
         if not self._made:
-            self._make()
+            next(self._making, None)
+            return
         letters = controller.axes or setup.letters
         if (setup, letters) != self._fitted:
             self._fitted = (setup, letters)
@@ -235,25 +236,41 @@ class TunerPanel(Panel):
         outer.addWidget(self._area, 1)
         outer.addStretch(0)
 
-    def _make(self) -> None:
-        """Everything that needs pyqtgraph, with the first look at it."""
+    def _make(self) -> Iterator[None]:
+        """Everything that needs pyqtgraph, with the first look at it: a piece with each tick, so that nothing waits."""
+        from widgets.parts.plot import Plot
+
+        yield
         from widgets.tuner.pages import AutomaticPage, LogbookPage, ManualPage, ModelPage
         from widgets.tuner.plots import BodePlot, StepPlot
         from widgets.tuner.step_box import StepBox
 
-        self._made = True
+        yield
         self.manual, self.automatic, self.model, self.logbook = (
             ManualPage(),
             AutomaticPage(),
             ModelPage(),
             LogbookPage(),
         )
-        self.box, self.step_plot, self.bode_plot = StepBox(), StepPlot(), BodePlot()
-        self.bode_plot.hide()
         for page in (self.manual, self.automatic, self.model, self.logbook):
             self.pages.addWidget(page)
-        self._arrange()
+        self.box = StepBox()
+        yield
+        plots: list[Plot] = []
+        for name in ("Step response", "Motor command", "Bode plot, gain", "Bode plot, phase"):
+            plots.append(Plot(name))
+            yield
+        step_plot = StepPlot(*plots[:2])
+        yield
+        self.step_plot, self.bode_plot = step_plot, BodePlot(*plots[2:])
+        self.bode_plot.hide()
         self._connect()
+        yield
+        self._arrange()
+        yield
+        self._box_layout.addWidget(self._right(), 1)
+        yield
+        self._made = True
         self.open_page(MANUAL)
 
     def _connect(self) -> None:
@@ -293,7 +310,6 @@ class TunerPanel(Panel):
         self._box_layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self._area)
         self._box_layout.setContentsMargins(0, 0, 0, 0)
         self._box_layout.addWidget(self._controls())
-        self._box_layout.addWidget(self._right(), 1)
         self._turn()
 
     def _controls(self) -> QWidget:

@@ -39,9 +39,9 @@ class Curve:
 class StepPlot(QWidget):
     """Commanded and actual position over the motor command; or the position error in place of the positions."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, position: Plot, torque: Plot, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.position, self.torque = Plot("Step response"), Plot("Motor command")
+        self.position, self.torque = position, torque
         self._curves: tuple[Curve, ...] = ()
         self._scale, self._unit, self._letter, self._limit, self.error = 1.0, "counts", "X", 10.0, False
         self.torque.setXLink(self.position)
@@ -128,9 +128,9 @@ class BodePlot(QWidget):
 
     target_wanted = Signal(float, float)  # crossover in rad/s, phase margin in degrees
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, gain: Plot, phase: Plot, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.gain, self.phase = Plot("Bode plot, gain"), Plot("Bode plot, phase")
+        self.gain, self.phase = gain, phase
         self._shown: tuple[Bode, Margins] | None = None
         self._crossover, self._margin = 0.0, 0.0
         self.crossover = pyqtgraph.InfiniteLine(angle=90, movable=True)

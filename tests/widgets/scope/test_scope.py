@@ -112,6 +112,7 @@ def drag(widget: QWidget, start: QPoint, end: QPoint) -> None:
         place = QPoint(*(round(a + part * (b - a)) for a, b in zip(start.toTuple(), end.toTuple(), strict=True)))
         event = QMouseEvent(QEvent.Type.MouseMove, QPointF(place), widget.mapToGlobal(QPointF(place)), LEFT, LEFT,
             Qt.KeyboardModifier.NoModifier)  # fmt: skip
+        QTest.qWait(12)  # the scene drops moves that follow each other faster than no hand can
         QApplication.sendEvent(widget, event)
     QTest.mouseRelease(widget, LEFT, pos=end)
 
