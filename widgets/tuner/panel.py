@@ -341,6 +341,7 @@ class TunerPanel(Panel):
         row = QHBoxLayout()
         row.setSpacing(4)
         self.axes.setAccessibleName("Axis to tune")
+        self.axes.setMaximumWidth(64)
         row.addWidget(QLabel("Axis"))
         row.addWidget(self.axes)
         row.addSpacing(8)
@@ -386,8 +387,10 @@ class TunerPanel(Panel):
         direction = QBoxLayout.Direction.LeftToRight if wide else QBoxLayout.Direction.TopToBottom
         if self._box_layout.direction() is not direction:
             self._box_layout.setDirection(direction)
-        self._side.setMaximumWidth(LEFT + 24 if wide else 16_777_215)
-        self._side.setMinimumWidth(LEFT if wide else 0)
+        needed = self._scroll.widget().minimumSizeHint().width() + self._scroll.verticalScrollBar().width()
+        left = max(LEFT, needed + 12)
+        self._side.setMaximumWidth(left + 24 if wide else 16_777_215)
+        self._side.setMinimumWidth(left if wide else 0)
         self._side.setMinimumHeight(0 if wide else self.height() // 2)
 
 
