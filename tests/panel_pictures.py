@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QScrollArea, QWidget
 
 from codegen.rates import setting_words
 from codegen.setup import Unit
@@ -31,6 +31,26 @@ def event_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.studio.at_machine.event_list.table.selectRow(1)
     stage.go()
     yield "panel-events", stage.studio.window
+
+
+def display_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
+    """An axis at its limit, a refused start, a latch that has tripped; then the rest of the panel, a name edited."""
+    rig, display = stage.connect("simulator"), stage.studio.display
+    rig.controller.take_control()
+    rig.type("AL X", "JG 5000", "BG X")
+    stage.go(10)
+    for name, value in (("in1", 0.0), ("an2", 2.5), ("fls_x", 0.0)):
+        rig.simulation.stimulus(name, value)
+    stage.go(30)
+    rig.result(rig.controller.ask("BG X"))
+    stage.studio.desk.bring("Display")
+    stage.go(90)
+    yield "panel-display-codes", stage.studio.window
+    display.outputs.edit(2)
+    bar = display.findChild(QScrollArea).verticalScrollBar()
+    bar.setValue(bar.maximum())
+    stage.go(60)
+    yield "panel-display-voltages", stage.studio.window
 
 
 def replay_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:

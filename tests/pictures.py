@@ -157,6 +157,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     from tests.bar_pictures import bar_scenes
     from tests.panel_pictures import (
         commissioning_scenes,
+        display_scenes,
         doctor_scenes,
         event_scenes,
         replay_scenes,
@@ -187,6 +188,7 @@ def _plane(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield from commissioning_scenes(stage)
     yield from teach_scenes(stage)
     yield from replay_scenes(stage)
+    yield from display_scenes(stage)
 
 
 def _jog(stage: Stage) -> Iterator[tuple[str, QWidget]]:
