@@ -75,7 +75,6 @@ class AtMachine:
         self.ghosts.sources.append(self.teach.play.ghost)
         self.event_list.line_wanted.connect(studio.ear.reveal)
         self.operator.tap = lambda opener: studio.recorder.channel().tap(opener)
-        self.operator.tap = lambda opener: studio.recorder.channel().tap(opener)
         self.event_list.help_wanted.connect(studio.desk.show_help)
         self.happened.said.connect(studio.desk.say)
         self.panels: tuple[Panel, ...] = (
