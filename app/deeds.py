@@ -50,11 +50,18 @@ class Deeds(QObject):
         self._turn = (self._turn + 1) % (LISTEN_TICKS * len(panels))
         if self._turn % LISTEN_TICKS == 0:
             self._listen_to(panels[self._turn // LISTEN_TICKS])
+            self._listen_to_windows()
         past = self._studio.session.history.past
         if len(past) != self._edits:
             self._edits = len(past)
             if past:
                 self._tell(f"Program: {past[-1].label}")
+
+    def _listen_to_windows(self) -> None:
+        """Those that never get the focus, because another program has it, are used as well."""
+        for window in QApplication.topLevelWidgets():
+            if window.isVisible() and not isinstance(window, QMainWindow | QDockWidget):
+                self._listen_to(window)
 
     def _focused(self, old: QWidget | None, new: QWidget | None) -> None:
         if new is None:

@@ -12,6 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QPushButton
 
+from app.deeds import LISTEN_TICKS
 from device.api import Kind, State, StopState
 from device.recorder_play import DID
 from device.recorder_read import Recording, joined
@@ -176,7 +177,7 @@ def test_what_is_done_is_noted_in_words(stage: Stage) -> None:
     studio.desk.question.activateWindow()
     QTest.qWaitForWindowActive(studio.desk.question, 3000)
     button.setFocus()
-    stage.go()
+    stage.go(2 * LISTEN_TICKS)
     QTest.mouseClick(button, LEFT)
     from codegen.instructions import Wait
 

@@ -74,6 +74,7 @@ def test_it_fills_from_a_controller_as_fast_as_its_line_carries() -> None:
     keys = ("position.x", "error.x", "torque.x", "position.y")
     roll = Roll(keys)
     rig.controller.watch("scope", keys)
+    rig.controller.poller.first = frozenset(keys)  # as the scope asks while it draws them
     roll.take(rig.controller.poller.ring)
     rates = []
     for hurry in (False, True):

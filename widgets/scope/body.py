@@ -277,6 +277,13 @@ class Body(QWidget):
         self.bar.cursors.setChecked(False)
         self.redraw(fit=True)
 
+    def _save_picture(self) -> None:
+        strip = next(iter(self.chart.strips.values()), None)
+        if strip is None:
+            set_text(self.bar.words, "There is no curve yet: capture something, or look at live values.")
+        else:
+            strip.save()
+
     def _ask_what_to_save(self) -> None:
         """All of the capture, or the stretch that is on the screen."""
         menu = QMenu(self)
@@ -359,7 +366,7 @@ class Body(QWidget):
         bar.sides_left.setChecked(True)
         bar.sides_right.setChecked(True)
         bar.fit.clicked.connect(lambda: self.redraw(fit=True))
-        bar.picture.clicked.connect(lambda: next(iter(chart.strips.values())).save())
+        bar.picture.clicked.connect(self._save_picture)
         bar.view_chosen.connect(self._view_chosen)
         bar.drawn_otherwise.connect(lambda: self.redraw(fit=True))
         chart.cursors_moved.connect(lambda: self._measure())

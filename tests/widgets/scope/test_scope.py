@@ -227,12 +227,14 @@ def test_readings_and_cursors_tell_what_mathematics_tells(qapp: QApplication, bo
     assert after[0] == before[0] and after[1] - before[1] == pytest.approx(-10 * 4 / 1024)
     box = strip.getViewBox()
     view = strip.viewport()
+    QTest.qWait(50)  # the readings of the cursors have taken their room beside the chart
 
     def at(place: float) -> QPoint:
         return box.mapViewToDevice(QPointF(place, 10.0)).toPoint()
 
     period = 1 / hertz
     drag(view, at(after[0]), at(period / 4))
+    QTest.qWait(50)
     drag(view, at(after[1]), at(period / 4 + 2 * period))
     first, second = body.chart.cursors or [0, 0]
     pixel = (box.viewRange()[0][1] - box.viewRange()[0][0]) / box.width()
