@@ -208,6 +208,7 @@ def test_cancel_and_stop_keep_a_part(stage: Stage) -> None:
     assert stage.rig.simulation.state()["arrays"] == {}
 
 
+@pytest.mark.alone  # drags go by the clock of the scene
 def test_readings_and_cursors_tell_what_mathematics_tells(qapp: QApplication, body: Body) -> None:
     _, hertz = given(body)
     qapp.processEvents()
