@@ -38,6 +38,15 @@ COUNTS, FLAG, CODE = Shape(10, 0), Shape(1, 0), Shape(3, 0)
 
 
 @dataclass(frozen=True, slots=True)
+class Standing:
+    """An axis before it is moved by hand."""
+
+    place: int  # commanded position, counts
+    period: int | None  # TM; None with an external clock, which is taken as the usual one
+    former: tuple[int, ...]  # SP, AC, DC
+
+
+@dataclass(frozen=True, slots=True)
 class Exchange:
     """What steps of a moving axis need of the link."""
 
@@ -71,6 +80,20 @@ class Exchange:
                 return None
             values += answer.values
         return tuple(values)
+
+    def standing(self, axis: str) -> Steps[Standing]:
+        """An axis that is to be moved by hand; NotAllowed where it moves already or its motor is off."""
+        reads = [(f"_{name}{axis}", Shape(8, 0)) for name in ("SP", "AC", "DC")]
+        flags = [(f"_{name}{axis}", FLAG) for name in ("BG", "MO")]
+        values = yield from self.read(*flags, (f"_RP{axis}", COUNTS), ("_TM", Shape(5, 0)), *reads)
+        if values is None:
+            raise LinkError(f"Axis {axis} did not start: the controller did not answer.")
+        moving, off, place, period, *former = (int(value) for value in values)
+        if moving:
+            raise NotAllowed(f"Axis {axis} moves already; stop it first.")
+        if off:
+            raise NotAllowed(f"Axis {axis} did not start: its motor is off. Switch it on (SH) first.")
+        return Standing(place, period if period > 0 else None, tuple(former))
 
     def packed(self, commands: Sequence[str]) -> list[str]:
         """The commands in as few lines as leave room for their proof."""
@@ -210,19 +233,10 @@ class Lease:
 
     def _meet(self) -> Steps[None]:
         """Where the axis is, that it stands, how long a sample is, and what SP, AC and DC are."""
-        reads = [(f"_{name}{self.axis}", Shape(8, 0)) for name in ("SP", "AC", "DC")]
-        flags = [(f"_{name}{self.axis}", FLAG) for name in ("BG", "MO")]
-        values = yield from self.exchange.read(*flags, (f"_RP{self.axis}", COUNTS), ("_TM", Shape(5, 0)), *reads)
-        if values is None:
-            raise LinkError(f"Axis {self.axis} did not start: the controller did not answer.")
-        moving, off, place, period, *former = (int(value) for value in values)
-        if moving:
-            raise NotAllowed(f"Axis {self.axis} moves already; stop it first.")
-        if off:
-            raise NotAllowed(f"Axis {self.axis} did not start: its motor is off. Switch it on (SH) first.")
-        self._former = tuple(former)
-        self.period = float(period) if period > 0 else self.period  # an external clock: as if it were the usual one
-        self._place = self.target = place
+        standing = yield from self.exchange.standing(self.axis)
+        self._former = standing.former
+        self.period = float(standing.period or self.period)
+        self._place = self.target = standing.place
 
     def _start(self) -> Steps[None]:
         wanted = {"AC": self.acceleration, "DC": self.deceleration, "SP": abs(self.speed)}

@@ -100,19 +100,10 @@ class Track:
 
     def meet(self) -> Steps[None]:
         """Where it is, that it stands with its motor on, and what SP, AC and DC are."""
-        reads = [(f"_{name}{self.axis}", Shape(8, 0)) for name in ("SP", "AC", "DC")]
-        flags = [(f"_{name}{self.axis}", FLAG) for name in ("BG", "MO")]
-        values = yield from self.exchange.read(*flags, (f"_RP{self.axis}", COUNTS), ("_TM", Shape(5, 0)), *reads)
-        if values is None:
-            raise LinkError(f"Axis {self.axis} did not start: the controller did not answer.")
-        moving, off, place, period, *former = (int(value) for value in values)
-        if moving:
-            raise NotAllowed(f"Axis {self.axis} moves already; stop it first.")
-        if off:
-            raise NotAllowed(f"Axis {self.axis} did not start: its motor is off. Switch it on (SH) first.")
-        self.scale = 1000.0 / period if period > 0 else 1.0
-        self.place = self.target = place
-        self.former = tuple(former)
+        standing = yield from self.exchange.standing(self.axis)
+        self.scale = 1000.0 / standing.period if standing.period is not None else 1.0
+        self.place = self.target = standing.place
+        self.former = standing.former
 
     def turn(self, held: Callable[[], bool]) -> Steps[None]:
         """What this axis needs now: a start, a longer way, another speed, a stop, or nothing."""

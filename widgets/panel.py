@@ -6,9 +6,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QLabel, QWidget
 
+from device.api import Kind, State
+
 if TYPE_CHECKING:
     from codegen.document import Document
     from device.api import Controller, Notice, Row
+
+NOT_READY = "The controller does not answer at the moment."
 
 
 class Panel(QWidget):
@@ -27,6 +31,15 @@ class Panel(QWidget):
     def in_sight(self) -> bool:
         """Whether any of it can be seen: what stands behind another tab is visible too, as Qt has it."""
         return self.isVisible() and not self.visibleRegion().isEmpty()
+
+    def no_control(self, offline: str, watched: str) -> str:
+        """Why nothing may be moved or set from here now, in the panel's own words; or nothing."""
+        controller = self.controller
+        if controller is None or controller.kind is Kind.OFFLINE:
+            return offline
+        if controller.state is not State.READY:
+            return NOT_READY
+        return "" if controller.control else watched
 
     def attach(self, controller: Controller) -> None:
         """Another controller (or none) is worked with from now on."""

@@ -11,7 +11,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from device.api import Kind, State
+from device.api import Kind
 from widgets.display.display import Column
 from widgets.display.readings import marks_of
 from widgets.jog.arrows import ARROWS, MODIFIERS, WITH, ArrowLine
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to move axes from here."
 WATCHED = "This is Watch: switch to Control to move axes."
-NOT_READY = "The controller does not answer at the moment."
 KEYS, PAD = "keys", "pad"
 
 
@@ -128,12 +127,7 @@ class JogPanel(Panel):
     @property
     def reason(self) -> str:
         """Why nothing may be moved now, or nothing."""
-        controller = self.controller
-        if controller is None or controller.kind is Kind.OFFLINE:
-            return OFFLINE
-        if controller.state is not State.READY:
-            return NOT_READY
-        return "" if controller.control else WATCHED
+        return self.no_control(OFFLINE, WATCHED)
 
     def refresh(self, row: Row) -> None:
         self._fit()

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from codegen.teach import Table
 from codegen.teach_drive import Driving, dead_band, share_of
-from device.api import Kind, NoticeKind, State
+from device.api import NoticeKind
 from device.jog import deflection
 from widgets.display.display import Column
 from widgets.display.readings import unit_of
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to teach places; the table works without."
 WATCHED = "This is Watch: switch to Control to drive and to play back."
-NOT_READY = "The controller does not answer at the moment."
 ONE_AXIS = "Teaching needs two axes; this controller has one."
 JOYSTICK, SCREEN, PAD = "joystick", "stick", "pad"
 SOURCES = {JOYSTICK: "Joystick at the controller", SCREEN: "Stick on the screen", PAD: "Gamepad"}
@@ -112,14 +111,11 @@ class TeachPanel(Panel):
     @property
     def reason(self) -> str:
         """Why nothing may be driven or played back now, or nothing."""
-        controller = self.controller
-        if controller is None or controller.kind is Kind.OFFLINE:
-            return OFFLINE
-        if controller.state is not State.READY:
-            return NOT_READY
-        if len(controller.axes) == 1 or (self.setup is not None and len(self.setup.letters) == 1):
-            return ONE_AXIS
-        return "" if controller.control else WATCHED
+        why = self.no_control(OFFLINE, WATCHED)
+        if why not in ("", WATCHED) or self.controller is None:
+            return why
+        one = len(self.controller.axes) == 1 or (self.setup is not None and len(self.setup.letters) == 1)
+        return ONE_AXIS if one else why
 
     @property
     def way(self) -> bool:

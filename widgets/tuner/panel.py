@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from device.api import Kind, State
+from device.api import Kind
 from widgets.display.readings import unit_of
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.units import scale_of
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
 
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to tune an axis."
 WATCHED = "This is Watch: switch to Control to tune."
-NOT_READY = "The controller does not answer at the moment."
 PAGES = ("Manual", "Automatic", "Model", "Logbook")
 MANUAL, AUTOMATIC, MODEL, LOGBOOK = range(4)
 STARTS = ("Start step", "Start automatic tuning", "Identify the axis", "")
@@ -112,12 +111,7 @@ class TunerPanel(Panel):
     @property
     def reason(self) -> str:
         """Why nothing may be tuned now, or nothing."""
-        controller = self.controller
-        if controller is None or controller.kind is Kind.OFFLINE:
-            return OFFLINE
-        if controller.state is not State.READY:
-            return NOT_READY
-        return "" if controller.control else WATCHED
+        return self.no_control(OFFLINE, WATCHED)
 
     @property
     def asked(self) -> Asked:
