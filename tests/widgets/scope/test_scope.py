@@ -107,6 +107,8 @@ def finished(stage: Stage, seconds: float = 120) -> Capture:
 
 
 def drag(widget: QWidget, start: QPoint, end: QPoint) -> None:
+    QTest.mouseMove(widget, start)  # a hand is there before it presses
+    QTest.qWait(12)
     QTest.mousePress(widget, LEFT, pos=start)
     for part in (0.3, 0.6, 1.0):
         place = QPoint(*(round(a + part * (b - a)) for a, b in zip(start.toTuple(), end.toTuple(), strict=True)))
