@@ -15,7 +15,8 @@ from PySide6.QtCore import QObject, Signal
 from app.connection import Connection
 from app.run import Ask, Run
 from app.tick import failure_of
-from codegen.files import FileUnreadable, setup_dumps
+from codegen.disk import FileUnreadable
+from codegen.files import setup_dumps
 from codegen.setup import Setup
 from device.api import Controller, Job, Kind, NotAllowed, State
 from device.backing_up import backup_steps

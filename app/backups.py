@@ -15,7 +15,7 @@ from app.backup_before import Keeping
 from app.connection import Connection
 from app.facts import Facts
 from app.run import Ask, Run
-from codegen.files import FileUnreadable
+from codegen.disk import FileUnreadable
 from device.api import Controller, Job, Kind, State
 from device.backing_up import Restored, backup_steps, restore_steps
 from device.backup import SUFFIX, Backup, differences, load, misfits, save

@@ -130,13 +130,14 @@ class Desk(QObject):
 
     def show_help(self, page: str) -> None:
         """A help page in a window of its own."""
+        from app.help_pages import search_words
         from widgets.help.panel import HelpPanel
 
         if self.help is None or self._help_panel is None:
             self.help = QDialog(self._window)
             self.help.setWindowTitle("Help")
             self.help.resize(880, 640)
-            self._help_panel = HelpPanel(self._pages)
+            self._help_panel = HelpPanel(self._pages, search_words())
             self._help_panel.browser.setSearchPaths([str(resources.path("help"))])
             self._help_panel.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
             self._help_panel.opened.connect(lambda _: self._fit_pictures())

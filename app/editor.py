@@ -17,7 +17,7 @@ from app.connection import Connection
 from app.facts import Facts
 from app.run import Ask, Run
 from app.session import Session
-from codegen.files import save_text
+from codegen.disk import save_text
 from codegen.models import MODELS
 from device.api import Kind, State
 from widgets.parts.files import CODE, ask_open, ask_save

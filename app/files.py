@@ -16,7 +16,8 @@ from app.in_use import user_of
 from app.run import Ask
 from app.session import ChangedOnDisk, NoPath, Session
 from app.settings import Settings
-from codegen.files import FileUnreadable, load
+from codegen.disk import FileUnreadable
+from codegen.files import load
 from codegen.generate import generate
 from widgets.parts import files as choose
 

@@ -11,8 +11,9 @@ from PySide6.QtWidgets import QWidget
 
 from app.run import Ask
 from app.session import Session
+from codegen.disk import FileUnreadable
 from codegen.document import Document
-from codegen.files import FileUnreadable, load
+from codegen.files import load
 from codegen.program import Section
 from widgets.parts import files as choose
 

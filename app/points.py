@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from codegen.files import save_text
+from codegen.disk import save_text
 from codegen.points import Point, PointsUnreadable, dumps, loads, name_problem, point_at
 from codegen.setup import Setup
 

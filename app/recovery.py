@@ -10,8 +10,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QLockFile
 
+from codegen.disk import FileUnreadable, save_text
 from codegen.document import Document
-from codegen.files import FileUnreadable, dumps, loads, save_text
+from codegen.files import dumps, loads
 
 SUFFIX = ".recovery"
 

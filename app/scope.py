@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QDockWidget
 from app.connection import Connection
 from app.session import Session
 from app.tick import Tick, failure_of
-from codegen.files import FileUnreadable
+from codegen.disk import FileUnreadable
 from device.api import Controller, Kind
 from widgets.parts.files import ask_open, ask_save
 from widgets.scope.panel import ScopePanel

@@ -9,7 +9,8 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from app.run import Ask
-from codegen.files import FileUnreadable, load_setup, save_setup, setup_dumps
+from codegen.disk import FileUnreadable
+from codegen.files import load_setup, save_setup, setup_dumps
 from codegen.setup import Setup
 from widgets.parts import files as choose
 

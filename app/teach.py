@@ -18,8 +18,8 @@ from app.teach_drive import TeachDrive
 from app.teach_play import TeachPlay
 from app.tick import Tick, failure_of
 from codegen import teach, teach_file
+from codegen.disk import FileUnreadable
 from codegen.document import Document
-from codegen.files import FileUnreadable
 from codegen.files import save as save_program
 from codegen.generate import generate
 from codegen.setup import Setup

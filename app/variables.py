@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject
 from app.connection import Connection
 from app.run import Ask
 from app.tick import Tick, failure_of
-from codegen.files import save_text
+from codegen.disk import save_text
 from widgets.parts.files import ask_open, ask_save
 from widgets.values.panel import ValuesPanel
 from widgets.values.typed import assignment

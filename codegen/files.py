@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import dataclasses as dc
 import json
-import os
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
+from codegen.disk import FileUnreadable, save_text
 from codegen.document import Document
 from codegen.fields import AXES, NONE, Choice, Flag, ListOf, PerAxis, fields_of, is_shown
 from codegen.handover import Handover
@@ -30,10 +29,6 @@ STEPS = "twoletter steps"
 _WIDEST = 160  # characters of a value that stays on one line
 _DEEPEST = 40  # containers inside each other
 Read = TypeVar("Read")
-
-
-class FileUnreadable(Exception):
-    """A file that cannot be opened: one sentence for the person."""
 
 
 # ----------------------------------------------------------------------- writing
@@ -140,39 +135,6 @@ def save(path: str | Path, document: Document) -> None:
 def save_setup(path: str | Path, setup: Setup) -> None:
     """Writes a `.tls` file; a crash leaves the old one whole."""
     save_text(path, setup_dumps(setup))
-
-
-def save_text(path: str | Path, text: str) -> None:
-    """Writes beside the file, then takes its place (also behind a symbolic link), keeping its permissions."""
-    path = Path(os.path.realpath(path))
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        _same_permissions(path, name)
-        os.replace(name, path)
-    finally:
-        Path(name).unlink(missing_ok=True)
-    _sync_folder(path.parent)
-
-
-def _same_permissions(path: Path, name: str) -> None:
-    mask = os.umask(0)
-    os.umask(mask)
-    os.chmod(name, path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~mask)
-
-
-def _sync_folder(folder: Path) -> None:
-    """Makes the new name durable where the system knows how."""
-    if os.name != "posix":
-        return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
 
 
 # ----------------------------------------------------------------------- reading

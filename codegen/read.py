@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import re
-from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import Any
 
 from codegen.fields import (
     AXES,
@@ -29,101 +26,16 @@ from codegen.fields import (
 )
 from codegen.instructions.instruction import Instruction
 from codegen.setup import Finding, Setup, never_set_up, setup_problems
+from codegen.template import Absent, Parts, filled, template
 
 MISSING = "…"
 
-# ------------------------------------------------------------ sentence templates
-
-
-@dataclass(frozen=True, slots=True)
-class _Place:
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class _Either:
-    alternatives: tuple[_Parts, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class _Each:
-    parts: _Parts
-
-
-_Parts: TypeAlias = tuple["str | _Place | _Either | _Each", ...]
-_MARK = re.compile(r"\{(\w+)\}|([\[\]|<>])")
-
-
-@lru_cache(maxsize=256)
-def _template(sentence: str) -> _Parts:
-    """A sentence as its parts."""
-    marks = [(match.start(), match.end(), match[1], match[2]) for match in _MARK.finditer(sentence)]
-    parts, _, _ = _read_parts(sentence, marks, 0, 0)
-    return parts
-
-
-def _read_parts(sentence: str, marks: list[Any], number: int, start: int) -> tuple[_Parts, int, int]:
-    """Parts up to the closing mark of this level; answers where that mark is."""
-    parts: list[str | _Place | _Either | _Each] = []
-    while number < len(marks):
-        begin, end, name, mark = marks[number]
-        if begin > start:
-            parts.append(sentence[start:begin])
-        if name:
-            parts.append(_Place(name))
-            start = end
-        elif mark == "[":
-            alternatives: list[_Parts] = []
-            while mark != "]":
-                inner, number, end = _read_parts(sentence, marks, number + 1, end)
-                alternatives.append(inner)
-                mark = marks[number][3]
-            parts.append(_Either(tuple(alternatives)))
-            start = end
-        elif mark == "<":
-            inner, number, start = _read_parts(sentence, marks, number + 1, end)
-            parts.append(_Each(inner))
-        else:
-            return tuple(parts), number, end
-        number += 1
-    if start < len(sentence):
-        parts.append(sentence[start:])
-    return tuple(parts), number, len(sentence)
-
-
-class _Absent(Exception):
-    """A value of this part is empty or hidden, so that the part vanishes."""
-
-
-def _filled(parts: _Parts, words: Callable[[str], str], each: Callable[[_Parts], str]) -> str:
-    written: list[str] = []
-    for part in parts:
-        match part:
-            case str():
-                written.append(part)
-            case _Place(name=name):
-                written.append(words(name))
-            case _Each(parts=inner):
-                written.append(each(inner))
-            case _Either(alternatives=alternatives):
-                written.append(_first(alternatives, words, each))
-    return "".join(written)
-
-
-def _first(alternatives: tuple[_Parts, ...], words: Callable[[str], str], each: Callable[[_Parts], str]) -> str:
-    for parts in alternatives:
-        try:
-            return _filled(parts, words, each)
-        except _Absent:
-            continue
-    return ""
-
 
 def _word(item: Any, name: str, setup: Setup) -> str:
-    """The text of one field, or `_Absent`."""
+    """The text of one field, or `Absent`."""
     text = _word_or_none(item, name, setup)
     if text is None:
-        raise _Absent
+        raise Absent
     return text
 
 
@@ -147,11 +59,11 @@ def _axis_word(item: Any, name: str, setup: Setup, letter: str) -> str:
         return _word(item, name, setup)
     text = getattr(item, name)[AXES.index(letter)]
     if text == "" or not is_shown(item, name):
-        raise _Absent
+        raise Absent
     return field.of.text(text, Context(setup, letter))
 
 
-def _each_axis(item: Any, parts: _Parts, setup: Setup) -> str:
+def _each_axis(item: Any, parts: Parts, setup: Setup) -> str:
     """`<…>` for all axes that have a value; axes that read the same share one part."""
     groups: dict[str, list[str]] = {}
     for letter in AXES:
@@ -165,10 +77,10 @@ def _each_axis(item: Any, parts: _Parts, setup: Setup) -> str:
         def words(name: str, letter: str = letter) -> str:
             return "\0" if name == "axis" else _axis_word(item, name, setup, letter)
 
-        groups.setdefault(_filled(parts, words, _no_each), []).append(letter)
+        groups.setdefault(filled(parts, words, _no_each), []).append(letter)
     written = [text.replace("\0", joined(tuple(letters))) for text, letters in groups.items()]
     if not written:
-        raise _Absent
+        raise Absent
     return "; ".join(text if not place else _small(text) for place, text in enumerate(written))
 
 
@@ -177,7 +89,7 @@ def _small(text: str) -> str:
     return text if text[:1] in AXES and not text[1:2].isalpha() else text[:1].lower() + text[1:]
 
 
-def _no_each(parts: _Parts) -> str:
+def _no_each(parts: Parts) -> str:
     raise AssertionError("<…> cannot stand inside <…>")
 
 
@@ -189,10 +101,10 @@ def _sentence_of(item: Any, setup: Setup, letters: str = "") -> str:
             known[name] = _word_or_none(item, name, setup, letters)
         text = known[name]
         if text is None:
-            raise _Absent
+            raise Absent
         return text
 
-    return _filled(_template(item.sentence), words, lambda parts: _each_axis(item, parts, setup))
+    return filled(template(item.sentence), words, lambda parts: _each_axis(item, parts, setup))
 
 
 def row_sentence(row: Any, setup: Setup, letters: str) -> str:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from codegen.disk import FileUnreadable, save_text
 from codegen.fields import Number, Quantity, fields_of
-from codegen.files import FileUnreadable, save_text
 from codegen.numbers import number_problem
 from codegen.teach import BYTE, COLUMNS, MOST_ROWS, ON, Row, Table, label_of, shown_text, typed_text, unit_row
 

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from codegen.difference_values import number_text, resolution
-from codegen.files import FileUnreadable, readable, save_text
+from codegen.disk import FileUnreadable, save_text
+from codegen.files import readable
 from codegen.models import MODELS, Model
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS

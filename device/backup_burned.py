@@ -9,7 +9,8 @@ from typing import Any
 from codegen.difference import Line
 from codegen.difference_report import Burned
 from codegen.difference_values import Values, number_text
-from codegen.files import readable, save_text
+from codegen.disk import save_text
+from codegen.files import readable
 from codegen.twoletter.commands import COMMANDS
 from device.backup import number_of, per_axis
 

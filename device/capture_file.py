@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from codegen.files import FileUnreadable, save_text, setup_dumps, setup_loads
+from codegen.disk import FileUnreadable, save_text
+from codegen.files import setup_dumps, setup_loads
 from codegen.models import MODELS
 from device.capture import BY_NAME, SLOWEST, Capture, Channel
 

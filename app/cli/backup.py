@@ -10,7 +10,8 @@ from app.cli.failure import DONE, NO, Failure
 from app.cli.line import connected, is_machine
 from app.cli.sources import target
 from app.cli.transfer import waited
-from codegen.files import FileUnreadable, load_setup, setup_dumps
+from codegen.disk import FileUnreadable
+from codegen.files import load_setup, setup_dumps
 from device.api import Controller, Job
 from device.backing_up import Restored, backup_steps, restore_steps
 from device.backup import Backup, load, save

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.cli.failure import Failure
+from codegen.disk import FileUnreadable
 from codegen.document import Document
-from codegen.files import FileUnreadable, load, load_setup
+from codegen.files import load, load_setup
 from codegen.generate import Listing, generate
 from codegen.models import MODELS, Model, model
 from codegen.read import cannot

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
 
-from codegen.files import save_text
+from codegen.disk import save_text
 from device.commissioning.steps import BY_KEY, Step
 
 SUFFIX = ".commissioning"

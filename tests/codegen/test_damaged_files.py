@@ -8,7 +8,7 @@ from pathlib import Path
 
 import resources
 from codegen import files
-from codegen.files import FileUnreadable
+from codegen.disk import FileUnreadable
 from tests.long import count, record
 
 SEED = 20

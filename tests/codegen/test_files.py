@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen import files
+from codegen.disk import FileUnreadable
 from codegen.document import Document
 from codegen.fields import fields_of
-from codegen.files import FileUnreadable
 from codegen.instructions import ALL, SingleAxisMove, Wait
 from codegen.program import Program, Step
 from codegen.setup import Axis, Setup

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen.bows import through_ends
-from codegen.files import FileUnreadable
+from codegen.disk import FileUnreadable
 from codegen.generate import generate
 from codegen.models import model
 from codegen.setup import Setup, Unit

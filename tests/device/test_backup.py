@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codegen.files import FileUnreadable
+from codegen.disk import FileUnreadable
 from codegen.models import MODELS
 from device.backing_up import Restored, backup_steps, restore_steps
 from device.backup import (

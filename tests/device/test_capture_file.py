@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from codegen.files import FileUnreadable, setup_dumps
+from codegen.disk import FileUnreadable
+from codegen.files import setup_dumps
 from codegen.setup import Setup
 from codegen.setup_axis import Axis
 from device.capture import Capture, Channel
