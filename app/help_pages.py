@@ -39,6 +39,13 @@ class Pages(Mapping[str, str]):
         return len(self._read())
 
 
+def search_words() -> dict[str, tuple[str, ...]]:
+    """What people type into the search, and the words that the pages use for it."""
+    from app.help_tables import table
+
+    return {typed: tuple(said) for typed, said in table("help_words")["words"].items()}
+
+
 def title_of(text: str) -> str:
     """The heading of a page."""
     return text.partition("\n")[0].removeprefix("# ").strip()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 from PySide6.QtCore import QUrl
@@ -89,3 +90,17 @@ def test_help_for_something_without_a_page_is_that_of_the_program_window(stage: 
 
 def test_every_panel_has_a_page(stage: Stage) -> None:
     assert set(stage.studio.window.docks) <= set(Pages())
+
+
+def test_every_link_is_one_and_leads_to_a_page(qapp: object) -> None:
+    pages = Pages()
+    links = 0
+    for title, text in pages.items():
+        shown = QTextDocument()
+        shown.setMarkdown(text)
+        assert "](" not in shown.toPlainText(), title  # such as a blank in an address: no link then
+        for href in re.findall(r'href="([^"]+)"', shown.toHtml()):
+            target = unquote(href).removeprefix("page:").removeprefix("#").removesuffix(".md")
+            assert target in pages or target.partition("#")[0] in pages, (title, href)
+            links += 1
+    assert links > 80

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, QUrl, Signal
 from PySide6.QtGui import QKeySequence, QShortcut, QTextBlock, QTextCursor
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -14,10 +14,12 @@ from PySide6.QtWidgets import (
     QPushButton,
     QSplitter,
     QTextBrowser,
+    QTextEdit,
     QVBoxLayout,
     QWidget,
 )
 
+from widgets.help.search import Word, pages_with, words_of
 from widgets.parts.icons import icon
 from widgets.parts.look import look
 
@@ -26,16 +28,32 @@ def _is_entry(block: QTextBlock) -> bool:
     return block.blockFormat().headingLevel() > 0 or block.textList() is not None
 
 
+def _blocks(browser: QTextBrowser) -> list[QTextBlock]:
+    block, found = browser.document().begin(), []
+    while block.isValid():
+        found.append(block)
+        block = block.next()
+    return found
+
+
 class HelpPanel(QWidget):
     """Shows pages of Markdown by their title; `[words](page:Title)` leads to another page."""
 
     opened = Signal(str)
     title = "Help"
 
-    def __init__(self, pages: Mapping[str, str], parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        pages: Mapping[str, str],
+        also: Mapping[str, tuple[str, ...]] | None = None,
+        parent: QWidget | None = None,
+    ) -> None:
+        """`also`: words people type, and those that the pages use for the same."""
         super().__init__(parent)
         self.setAccessibleName(self.title)
         self.pages = dict(pages)
+        self.also = dict(also or {})
+        self.words: list[Word] = []
         self.past: list[str] = []
         self.page = ""
         self.search = QLineEdit()
@@ -44,6 +62,7 @@ class HelpPanel(QWidget):
         self.search.setMinimumHeight(look().control)
         self.search.setAccessibleName("Search help")
         self.search.textChanged.connect(self._filter)
+        self.search.returnPressed.connect(lambda: self.list.setCurrentRow(0))
         self.list = QListWidget()
         self.list.setAccessibleName("Help pages")
         self.list.addItems(sorted(self.pages, key=str.lower))
@@ -59,6 +78,7 @@ class HelpPanel(QWidget):
         self.back = QPushButton(icon("left"), "Back")
         self.back.setMinimumHeight(look().control)
         self.back.setEnabled(False)
+        self.back.setAutoDefault(False)  # Enter belongs to the search
         self.back.setToolTip("The page before (Alt+Left)")
         self.back.clicked.connect(self.go_back)
         back = QShortcut(QKeySequence("Alt+Left"), self, activated=self.go_back)
@@ -106,9 +126,12 @@ class HelpPanel(QWidget):
         while block.isValid() and not (_is_entry(block) and block.text().startswith(part)):
             block = block.next()
         if block.isValid():
-            self.browser.setTextCursor(QTextCursor(block))
-            place = self.browser.document().documentLayout().blockBoundingRect(block).top()
-            self.browser.verticalScrollBar().setValue(int(place))
+            self._scroll_to_block(block)
+
+    def _scroll_to_block(self, block: QTextBlock) -> None:
+        self.browser.setTextCursor(QTextCursor(block))
+        place = self.browser.document().documentLayout().blockBoundingRect(block).top()
+        self.browser.verticalScrollBar().setValue(int(place))
 
     def go_back(self) -> None:
         """The page before."""
@@ -120,15 +143,19 @@ class HelpPanel(QWidget):
         self.browser.setMarkdown(self.pages[page])
         self.back.setEnabled(bool(self.past))
         found = self.list.findItems(page, Qt.MatchFlag.MatchExactly)
-        if found and self.list.currentItem() is not found[0]:
-            self.list.blockSignals(True)
-            self.list.setCurrentItem(found[0])
-            self.list.blockSignals(False)
+        if not found:  # what was looked for leaves it out
+            self.search.clear()
+            found = self.list.findItems(page, Qt.MatchFlag.MatchExactly)
+        if self.list.currentItem() is not found[0]:
+            with QSignalBlocker(self.list):
+                self.list.setCurrentItem(found[0])
+        self._mark()
         self.opened.emit(page)
 
     def _picked(self, page: str) -> None:
         if page and page != self.page:
             self.open(page)
+            self._scroll_to_words()
 
     def _link(self, url: QUrl) -> None:
         target = url.toString(QUrl.ComponentFormattingOption.FullyDecoded)
@@ -137,12 +164,38 @@ class HelpPanel(QWidget):
         self.open(target.removesuffix(".md"))
 
     def _filter(self, text: str) -> None:
-        words = text.lower().split()
-        shown = 0
-        for row in range(self.list.count()):
-            item = self.list.item(row)
-            everything = f"{item.text()} {self.pages[item.text()]}".lower()
-            hit = all(word in everything for word in words)
-            item.setHidden(not hit)
-            shown += hit
-        self.none.setVisible(not shown)
+        """Only pages that hold the words, the best first."""
+        self.words = words_of(text, self.also)
+        titles = pages_with(self.words, self.pages) if self.words else sorted(self.pages, key=str.lower)
+        with QSignalBlocker(self.list):
+            self.list.clear()
+            self.list.addItems(titles)
+            if self.page in titles:
+                self.list.setCurrentRow(titles.index(self.page))
+        self.none.setVisible(not titles)
+        self._mark()
+
+    def _mark(self) -> None:
+        """The words that were looked for, on their ground colour."""
+        marks = []
+        for word in self.words:
+            for block in _blocks(self.browser):
+                for found in word.pattern.finditer(block.text()):
+                    mark = QTextEdit.ExtraSelection()
+                    mark.cursor = QTextCursor(block)
+                    mark.cursor.setPosition(block.position() + found.start())
+                    mark.cursor.setPosition(block.position() + found.end(), QTextCursor.MoveMode.KeepAnchor)
+                    mark.format.setBackground(look().colour("executing"))
+                    marks.append(mark)
+        self.browser.setExtraSelections(marks)
+
+    def _scroll_to_words(self) -> None:
+        """To the heading, else to the paragraph that says most of the words; the top where the title does."""
+        blocks = _blocks(self.browser)[1:]
+        weights = [
+            (sum(word.weight(block.text()) for word in self.words), block.blockFormat().headingLevel() > 0)
+            for block in blocks
+        ]
+        best = max(weights, default=(0, False))
+        if best[0]:
+            self._scroll_to_block(blocks[weights.index(best)])
