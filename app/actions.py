@@ -66,7 +66,7 @@ ROWS: tuple[Row, ...] = (
         "Program, code, setup, names, limits, gains and a checklist: preview, PDF"),
     Row("handover", "Handover…", "File", "Author, revision and change notes; the revision goes into the controller",
         "Ctrl+Shift+H"),
-    Row("exit", "Exit", "File", "Leaves the program", "Ctrl+Q", "exit", "main", "Exit"),
+    Row("exit", "Exit", "File", "Closes the studio", "Ctrl+Q", "exit", "main", "Exit"),
     _program("undo", "Edit"),
     _program("redo", "Edit"),
     _program("-1", "Edit"),

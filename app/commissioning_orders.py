@@ -133,12 +133,12 @@ class Orders:
     # ---- limits
 
     def _guards(self) -> None:
-        error = self._whole("error", "Largest following error", "2000")
-        torque = self._number("torque", "Largest motor command", "1")
+        error = self._whole("error", "Error limit", "2000")
+        torque = self._number("torque", "Torque limit", "1")
         if not 1 <= error <= 32767:
-            raise NotTyped("Largest following error: write 1 to 32767 counts.")
+            raise NotTyped("Error limit: write 1 to 32767 counts.")
         if not 0 < torque < 10:
-            raise NotTyped("Largest motor command: write more than 0, and less than 10 V.")
+            raise NotTyped("Torque limit: write more than 0, and less than 10 V.")
         self._set({"OE": ONE, "ER": error * ONE, "TL": scaled(torque)})
 
     def _limits(self) -> None:
@@ -192,13 +192,13 @@ class Orders:
 
     # ---- moves
 
-    def _move(self, trial: Trial, done: Callable[[Moved], None], first: bool = False) -> None:
+    def _move(self, trial: Trial, done: Callable[[Moved], None]) -> None:
         d = self._d
         if trial.problem:
             raise NotTyped(f"Not moved: {trial.problem}")
         d.moved = d.measured = None
         job: Job[Moved] = Job()
-        steps = (moves.first_move if first else moves.move)(d.controller, trial, d.folder, d.now(), job)
+        steps = moves.move(d.controller, trial, d.folder, d.now(), job)
         d.run(f"Axis {trial.axis} moves", steps, done, job)
 
     def _polarity(self) -> None:
@@ -218,7 +218,7 @@ class Orders:
                 finding = dc.replace(finding, verdict=Verdict.OPEN, sentence=f"{finding.sentence} {WENT}")
             d.found(finding)
 
-        self._move(Trial(d.record.axis, counts, error, self._torque()), done, first=True)
+        self._move(Trial(d.record.axis, counts, error, self._torque()), done)
 
     def _torque(self) -> Fraction:
         return parse_number(self._d.record.text("guards", "torque", "1")) or Fraction(1)

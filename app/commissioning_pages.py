@@ -138,8 +138,8 @@ def _switches(now: Now) -> Parts:
 
 def _guards(now: Now) -> Parts:
     fields = (
-        Entered("error", "Largest following error (ER)", now.text("guards", "error", "2000"), "counts"),
-        Entered("torque", "Largest motor command (TL)", now.text("guards", "torque", "1"), "V"),
+        Entered("error", "Error limit (ER)", now.text("guards", "error", "2000"), "counts"),
+        Entered("torque", "Torque limit (TL)", now.text("guards", "torque", "1"), "V"),
     )
     return (Reading("Motor", now.motor),), fields, (), (Act("guards", "Set", now.send, primary=True),)
 

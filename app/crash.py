@@ -32,11 +32,11 @@ class CrashDialog(QDialog):
 
     def __init__(self, text: str, path: Path | None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Something went wrong in this program")
+        self.setWindowTitle("Something went wrong in the studio")
         self.setModal(False)
         where = f"It is written down in {path}." if path is not None else "It could not be written down."
         words = QLabel(
-            "Something went wrong in this program, not in your work. A stop was sent first. "
+            "Something went wrong in the studio, not in your work. A stop was sent first. "
             f"Your program file is untouched and you can go on; saving now is wise.\n{where}"
         )
         words.setWordWrap(True)

@@ -236,9 +236,9 @@ class Desk(QObject):
 
 
 def _line(left: Recovered) -> str:
-    """ "cutter.tlp – 22.11.2026 17:05 – 12 steps – in /programs"."""
+    """ "cutter.tlp – 2026-11-22 17:05 – 12 steps – in /programs"."""
     steps = sum(1 for _ in left.document.program.steps())
-    parts = [left.name, f"{left.when:%d.%m.%Y %H:%M}", f"{steps} step{'s' * (steps != 1)}"]
+    parts = [left.name, f"{left.when:%Y-%m-%d %H:%M}", f"{steps} step{'s' * (steps != 1)}"]
     if left.original:
         parts.append(f"in {Path(left.original).parent}")
         if not left.is_newer_than_file():

@@ -87,7 +87,7 @@ class Files(QObject):
         newer = [left for left in self._session.recoverable() if left.belongs_to(path) and left.is_newer_than_file()]
         if newer:
             left = newer[0]
-            words = f"Unsaved work on {left.name} ({left.when:%d.%m.%Y %H:%M}) is newer than the file. It is kept."
+            words = f"Unsaved work on {left.name} ({left.when:%Y-%m-%d %H:%M}) is newer than the file. It is kept."
             answers = (
                 ("Recover it", partial(self._session.recover, left)),
                 ("Throw it away", partial(self._session.forget, left)),

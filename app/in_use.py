@@ -28,7 +28,7 @@ def user_of(path: Path) -> str:
     if not pid or (pid, host) == (os.getpid(), socket.gethostname()):
         return ""  # no note can be written there, or it is ours
     note = QFileInfo(str(note_of(path)))
-    person, since = note.owner() or "somebody", note.lastModified().toString("dd.MM.yyyy HH:mm")
+    person, since = note.owner() or "somebody", note.lastModified().toString("yyyy-MM-dd HH:mm")
     place = "this computer" if host == socket.gethostname() else host
     return f"{person} on {place} (process {pid}), since {since}"
 

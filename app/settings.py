@@ -68,10 +68,11 @@ ROWS = (
     Row("recent_files", list, [], "Recent programs", "Programs opened last, newest first."),
     Row("folded", dict, {}, "Folded", "What is folded in the programs opened last, by file."),
     Row("jog_speeds", dict, {}, "Jog speeds", "Slow, medium and fast of every axis, by its unit, for moving by hand."),
+    Row("tuner", dict, {}, "Tuner", "Axis, page, view, record, steps and targets of the tuner; no gains."),
     Row("layout", str, "Program", "Layout", "Arrangement of the panels.", ("Program", "Run", "Tune", "Own")),
     Row("window", dict, {}, "Window", "Place, size and arrangement of the panels."),
     Row("look_at_start", bool, True, "Look for a controller at start",
-        "Tries the ports known from before when the program starts."),
+        "Tries the ports known from before when the studio starts."),
 )  # fmt: skip
 
 

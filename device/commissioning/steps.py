@@ -80,7 +80,7 @@ STEPS: tuple[Step, ...] = (
         "guards",
         "Error and torque limits",
         (
-            "Type the largest following error and the largest motor command for the first moves, and press “Set”.",
+            "Type the error limit and the torque limit for the first moves, and press “Set”.",
             "The motor goes off; off-on-error (OE 1) is set with them.",
         ),
         "OE, ER and TL as the controller holds them afterwards",

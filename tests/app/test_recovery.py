@@ -57,9 +57,9 @@ def test_everything_that_was_left_is_offered_newest_first_with_time_name_and_siz
     leave(stage, "SECOND", 1)
     begin(stage.studio, None, "offline")
     assert [line.split(" – ")[:3] for line in lines(stage)] == [
-        ["third.tlp", "04.05.2026 12:30", "1 step"],
-        ["SECOND", "04.05.2026 11:30", "1 step"],
-        ["FIRST", "04.05.2026 10:30", "1 step"],
+        ["third.tlp", "2026-05-04 12:30", "1 step"],
+        ["SECOND", "2026-05-04 11:30", "1 step"],
+        ["FIRST", "2026-05-04 10:30", "1 step"],
     ]
     assert window(stage).isVisible()
 
@@ -116,7 +116,7 @@ def test_with_a_file_the_newer_work_on_it_is_offered(stage: Stage) -> None:
     begin(stage.studio, Path(os.path.relpath(file)), "offline")
     question = stage.studio.desk.question
     assert question is not None
-    assert question.words == "Unsaved work on wire-cutter.tlp (04.05.2026 11:30) is newer than the file. It is kept."
+    assert question.words == "Unsaved work on wire-cutter.tlp (2026-05-04 11:30) is newer than the file. It is kept."
     assert stage.studio.session.document != work  # the file is open until something else is chosen
     QTest.mouseClick(question.buttons["Recover it"], Qt.MouseButton.LeftButton)
     assert stage.studio.session.document == work

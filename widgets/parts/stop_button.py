@@ -12,7 +12,7 @@ from widgets.parts.look import look
 
 HELP = (
     "Stops all motion and all programs, ahead of everything else (F12). A second press aborts at once. "
-    "It is a function of this program: keep the machine's emergency stop within reach."
+    "It is not an emergency stop: keep the machine's own within reach."
 )
 # state: (headline, line below)
 TEXTS = {

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 WORDS = (
-    "This work was not saved when the program ended unexpectedly. Recover opens it, still unsaved; "
+    "This work was not saved when the studio ended unexpectedly. Recover opens it, still unsaved; "
     "the rest stays in this list and is offered again at the next start."
 )
 
@@ -34,6 +34,7 @@ class UnsavedWork(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Recover unsaved work?")
         self.setModal(False)
+        self.setProperty("helpPage", "Program window#Work that was not saved")
         heading, words = QLabel("Recover unsaved work?"), QLabel(WORDS)
         heading.setProperty("role", "title")
         words.setWordWrap(True)
