@@ -17,8 +17,8 @@ from app.tick import Tick, failure_of
 from codegen.document import Document
 from codegen.handover import Handover, stamp_of
 from device.api import Controller, Kind, State
-from device.download import proved
 from device.identify import fence
+from device.proof import proved
 from device.tasks import Priority, Steps
 from device.wire import Kind as AnswerKind
 
@@ -110,8 +110,8 @@ class Handing(QObject):
 
 def _first_line(c: Controller) -> Steps[str]:
     """Line 0 of the program, which nothing needs to be stopped for; empty where there is none."""
-    answer = yield from proved(c.nonces, "LS 0,0", LINE_S, 0.05)
-    if answer.kind is not AnswerKind.ACCEPTED or not answer.certain:
+    answer = yield from proved(c.nonces, "LS 0,0", LINE_S, 0.05, r"\s*0{1,3} .*")
+    if answer.kind is not AnswerKind.ACCEPTED or "\n" in answer.text:
         yield from fence(c.nonces)
         return ""
     return re.sub(r"^\s*\d{1,3} ", "", answer.text.strip())

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse
-from device.wire import FAULT
+from device.leftover import FAULT
 
 UNAWAITED = re.compile("[:?]*" + FAULT.pattern)  # an error behind nothing but prompts and refusals
 MAY_ASK = re.compile(r"(?m)(?:^|;)[ \t]*(?:I[ \t]*N|C[ \t]*I)")  # a text without this asks nothing and needs no parsing

@@ -24,8 +24,9 @@ from device.backup import (
     untold,
 )
 from device.backup_words import names
-from device.download import Download, Downloaded, Job, proved, upload_steps
+from device.download import Download, Downloaded, Job, upload_steps
 from device.identify import fence
+from device.proof import proved
 from device.tasks import LinkError, LinkLost, NotAllowed, Send, Steps, data_line
 from device.wire import FRAME_COLUMNS, Kind, Upload
 
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 LINE_S = 1.5
 REFUSAL_S = 0.05  # silence behind a `?` that makes it a refusal
 WIDTH = len("$00000000.0000")
+EXACT = r"\s*\$[0-9A-F]{8}\.[0-9A-F]{4}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +80,7 @@ def exact(
     for group in _lines([f"{each}{{$8.4}}" for each in expressions], columns - FRAME_COLUMNS - 4, ","):
         if enough():
             break
-        answer = yield from proved(nonces, f"MG {','.join(group)}", LINE_S, REFUSAL_S)
+        answer = yield from proved(nonces, f"MG {','.join(group)}", LINE_S, REFUSAL_S, EXACT * len(group))
         if answer.kind is Kind.SILENT:
             raise LinkLost("The controller stopped answering.")
         if answer.kind is not Kind.ACCEPTED:
@@ -207,10 +209,10 @@ def _arrays(c: Controller, model: Model, names: Sequence[str], job: Job[Backup])
 def listed(c: Controller, model: Model, program: str) -> Steps[tuple[list[str], list[str]]]:
     """Variables and arrays: those the controller lists where it can, and those its program names."""
     variables, arrays = names_in(program)
-    for command, found in (("LV", variables), ("LA", arrays)):
+    for command, found, reply in (("LV", variables, r"\w+=.*"), ("LA", arrays, r"\w+\[\d+\]")):
         if command not in COMMANDS or not COMMANDS[command].known_to(model):
             continue
-        answer = yield from proved(c.nonces, command, 10.0, REFUSAL_S)
+        answer = yield from proved(c.nonces, command, 10.0, REFUSAL_S, reply)
         if answer.kind is not Kind.ACCEPTED:
             yield from fence(c.nonces)
             continue

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.poll import SHARE
+from device.proof import with_proof
 from device.tasks import LinkLost, NotAllowed, Refused, Send, Steps, Stopped, Wait
-from device.wire import Answer, Expectation, Frame, Kind, Proof, Shape, framed
+from device.wire import NOTHING, Answer, Expectation, Frame, Kind, Shape, framed
 
 if TYPE_CHECKING:
     from device.api import Controller
@@ -88,8 +89,7 @@ class Talk:
 
     def line_and_proof(self, line: str) -> tuple[bytes, Expectation]:
         """A line that sends nothing back but its proof: text that comes in between is a program's."""
-        nonce = next(self._c.nonces)
-        return f"{line};{framed(nonce, ())}\r".encode(), Proof(nonce, line.count(";") + 1, data=False)
+        return with_proof(next(self._c.nonces), line, NOTHING)
 
     def accepted(self, line: str) -> Steps[bool]:
         """Sends one line; whether it was accepted."""

@@ -20,8 +20,8 @@ from device import live
 from device.capture import Capture, Channel, Plan, Trigger, When, objection
 from device.capture_room import Room
 from device.capture_talk import ELEMENT_BYTES, LINE_S, NOT, Talk
-from device.commands import tells
 from device.download import Job
+from device.proof import tells
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Steps, data_line
 from device.trigger import Turning, found_at, passed, watched
 from device.wire import FRAME_COLUMNS, Kind, Shape, Upload, fitting

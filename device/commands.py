@@ -4,33 +4,31 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeVar
 
 from codegen.twoletter import nodes
-from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.slow_mark import BURNS, FULL, percent_of
 from device.asking import Listing
 from device.door import LISTS, choose, only_reads
-from device.download import proved, upload_steps
+from device.download import upload_steps
 from device.identify import fence, read_once
+from device.proof import proved, tells, with_proof
 from device.stop import StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Refused, Send, Steps, data_line
-from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Proof, Revision, Shape, Upload, framed
+from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Revision, Shape, Upload
 
 if TYPE_CHECKING:
     from device.api import Controller
 
 T = TypeVar("T")
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
-TELLING = LISTS | {"MG"} | {row.name for row in COMMANDS.values() if row.tells}
 ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}
 USUAL_S = 1.0
-OWN_MARK = re.compile(r"(?:^|\n):*\?(?![ ]*[0-9]{3} )")  # a refusal: no part of a line, no error of a program
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,19 +110,22 @@ def _plain(command: str, found: list[str], controller: Controller) -> bool:
 def _with_proof(controller: Controller, command: str, limit: float, before: int) -> Steps[Reply]:
     """The frame behind the command comes only when the command was accepted."""
     nonce = next(controller.nonces)
-    statements = parse_line(command).statements
-    expected = Proof(nonce, len(statements), any(tells(s) for s in statements))
-    answer = yield Send(data_line(f"{command};{framed(nonce, ())}"), expected, limit, refusal_s=0.05)
+    answer = yield Send(*with_proof(nonce, command), limit, refusal_s=0.05)
+    if controller.waiting.position != frozenset() and _lines_told(command) not in (None, _lines_in(answer.text)):
+        answer = replace(answer, certain=False)  # a line of the program that runs may be among them
     return (yield from _reply(controller, answer, command, limit, nonce, before))
 
 
-def tells(statement: nodes.Statement) -> bool:
-    """Whether a statement sends something back."""
-    if isinstance(statement, nodes.Command):
-        if statement.name in TELLING or any(isinstance(item, nodes.Query) for item in statement.arguments):
-            return True
-        return statement.name in ("CW", "BS") and not statement.arguments
-    return isinstance(statement, nodes.Print | nodes.Broken | nodes.Foreign)
+def _lines_told(command: str) -> int | None:
+    """How many lines the answer has; None where that is not known."""
+    telling = [statement for statement in parse_line(command).statements if tells(statement)]
+    if any(not isinstance(each, nodes.Command) or each.name in LISTS for each in telling):
+        return None
+    return len(telling)
+
+
+def _lines_in(text: str) -> int:
+    return len(text.splitlines())
 
 
 def _reply(
@@ -144,16 +145,17 @@ def _judged(
         return Reply(answer.text, True, answer.certain)
     if answer.kind is Kind.SILENT:
         raise LinkLost(f"No answer to “{command}”.")
-    wire = controller.link.wire
+    left = controller.link.wire.left
     fenced = yield from fence(controller.nonces, max(limit, 0.6))
-    if nonce and nonce in wire.seen:
+    if nonce and nonce in left.seen:
         return Reply("", True, False)
     code = int(fenced.values[0]) if fenced.kind is Kind.VALUES else 0
-    refused = answer.kind is Kind.REFUSED or OWN_MARK.search(answer.text) is not None
-    refused = refused or ("?" in answer.text and code != before)
+    stands = answer.kind is Kind.REFUSED or answer.refused
+    refused = stands or ("?" in answer.text and code != before)
     if not refused or not code:
         raise LinkLost(f"No clear answer to “{command}”; look whether it was carried out.")
-    wire.strip_question()
+    if not stands:
+        left.strip_question()
     words = ERROR_TEXTS.get(code, "unknown error")
     return Reply("", False, True, code, f"{command}: refused, error {code}, {words}.")
 

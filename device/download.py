@@ -14,9 +14,10 @@ from codegen.models import Model
 from device.asking import Waiting
 from device.door import LEAVE
 from device.identify import fence, read_once
+from device.proof import proved as proved
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, Stopped, Wait
 from device.transport import LineSettings
-from device.wire import Answer, Frame, Kind, Prompts, Proof, Shape, Upload, framed
+from device.wire import Answer, Frame, Kind, Prompts, Shape, Upload, framed
 
 T = TypeVar("T")
 SETTLE_S = 0.05  # a refusal's way here at least: adapters keep bytes up to 16 ms (twice that), the controller needs 10
@@ -322,12 +323,6 @@ def recover(waiting: Waiting, nonces: Iterator[str]) -> Steps[None]:
             waiting.unfinished = False
             return
         yield Wait(0.3)
-
-
-def proved(nonces: Iterator[str], command: str, timeout_s: float, refusal_s: float = 0.0) -> Steps[Answer]:
-    """A command and the proof that it was accepted; with `refusal_s` a `?` and so much silence is a refusal."""
-    nonce = next(nonces)
-    return (yield Send(f"{command};{framed(nonce, ())}\r".encode(), Proof(nonce), timeout_s, refusal_s=refusal_s))
 
 
 def write_dated(folder: Path, text: str, now: datetime) -> Path:

@@ -14,8 +14,9 @@ from dataclasses import dataclass, field
 
 from codegen.twoletter.problems import ERROR_TEXTS, STOP_TEXTS
 from device.identify import fence, read_once, read_surely
+from device.proof import with_proof
 from device.tasks import LinkError, NotAllowed, Send, Steps, Wait
-from device.wire import FRAME_COLUMNS, Answer, Frame, Kind, Proof, Shape, fitting, framed
+from device.wire import FRAME_COLUMNS, Answer, Frame, Kind, Shape, fitting, framed
 
 LEASE_S = 0.15  # not renewed for so long: the axis is stopped
 AHEAD_S = 0.4  # of travel, and the stopping distance, are commanded at most
@@ -61,9 +62,8 @@ class Exchange:
 
     def prove(self, command: str, stops: bool = False) -> Steps[Answer]:
         """One line and the proof that it was accepted; a refusal ends the wait early."""
-        nonce, count = next(self.nonces), command.count(";") + 1
-        line = f"{command};{framed(nonce, ())}\r".encode()
-        return (yield Send(line, Proof(nonce, count), self.patience(len(line) + 12), refusal_s=0.04, stops=stops))
+        line, proof = with_proof(next(self.nonces), command)
+        return (yield Send(line, proof, self.patience(len(line) + 12), refusal_s=0.04, stops=stops))
 
     def put_back(self, commands: Sequence[str]) -> Steps[None]:
         """Speeds and ramps as they were; not where Watch or a question forbids it meanwhile."""

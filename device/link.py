@@ -233,10 +233,10 @@ class Link:
             step = self._current.step if self._current is not None else None
             if isinstance(step, Send) and step.extends:
                 self._deadline = now + step.timeout_s
-        for line in self.wire.lines():
+        for line in self.wire.left.lines():
             self.note("*", line, "program")
             self._owner.text(line)
-        rest = self.wire.rest
+        rest = self.wire.left.rest
         if rest and rest != self._told_rest and now - self._last_byte >= PROMPT_QUIET_S:
             self._told_rest = rest
             self._owner.standing(rest)
@@ -334,7 +334,8 @@ class Link:
         if step.expect is None:
             self.sure = False
             if task.priority is Priority.STOP:
-                self.wire.owe(step.data.count(b"\r"))
+                for _ in range(step.data.count(b"\r")):
+                    self.wire.left.owe(1)
         shown = step.data.decode("ascii", "replace").rstrip("\r")
         self.note(">", PROOF.sub("", shown) if task.source in ("user", "download") else shown, task.source)
         self._owner.sent(step.data, task.source)
@@ -417,7 +418,7 @@ class Link:
 
     def clear_rest(self) -> None:
         """The text that stands there is done with (its question was answered)."""
-        self.wire.take_rest()
+        self.wire.left.take_rest()
         self._told_rest = ""
 
     def note(self, direction: str, text: str, source: str) -> None:

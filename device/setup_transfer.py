@@ -15,8 +15,9 @@ from codegen.twoletter.problems import ERROR_TEXTS
 from device import commands
 from device.backing_up import LINE_S, exact
 from device.commands import Reply
-from device.download import Job, proved
+from device.download import Job
 from device.identify import fence
+from device.proof import proved
 from device.tasks import LinkLost, NotAllowed, Priority, Steps
 from device.wire import Kind
 

@@ -12,14 +12,14 @@ from __future__ import annotations
 
 import re
 import string
-from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from device.leftover import Leftover, refusal
+
 OPEN, CLOSE = 30, 31  # the characters that frame a read
-LATE = re.compile("\x1e([a-z0-9]{2})[ 0-9.-]*\x1f\r\n")
-FAULT = re.compile(r"\?\s*([0-9]{3}) ")  # how the controller tells of an error: `?`, the line's number, its text
+ANYTHING, NOTHING = ".*", "(?!)"  # what the lines of a reply look like
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
 
 
@@ -54,11 +54,14 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """Expects the answer of a line of `prompts` statements, then the empty frame that proves it was accepted."""
+    """Expects the answer of a line of `prompts` statements, then the empty frame that proves it was accepted.
+
+    Lines that look like its `reply` are the answer's; what else came in between is a program's text.
+    """
 
     nonce: str
     prompts: int = 1
-    data: bool = True  # whether the command sends something back besides its prompts
+    reply: str = ANYTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +100,7 @@ class Answer:
     values: tuple[float, ...] = ()
     text: str = ""  # of values: what came behind their prompt
     certain: bool = True
+    refused: bool = False  # of uncertain: something stood there like a refusal, and was taken out of the text
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,13 +150,9 @@ class Wire:
         self.manners = manners or Manners()
         self._buffer = bytearray()
         self._marked = bytearray()
-        self._text = ""
-        self._stray = 0
         self._expected: Expectation | None = None
         self._question = False
-        self._echoes: deque[str] = deque(maxlen=8)
-        self._lines: deque[str] = deque()
-        self.seen: deque[str] = deque(maxlen=16)  # marks of frames that came too late
+        self.left = Leftover()
 
     # ------------------------------------------------------------- expecting
 
@@ -162,9 +162,9 @@ class Wire:
         self._expected = expectation
         self._question = False
         if isinstance(expectation, Frame) and self.manners.prompt_per_command:
-            self.owe(expectation.before)
+            self.left.owe(expectation.before)
         if sent:
-            self._echoes.append(sent)
+            self.left.echoes.append(sent)
 
     @property
     def question(self) -> bool:
@@ -181,8 +181,8 @@ class Wire:
         if self._expected is None:
             self._release(len(self._buffer))
         elif isinstance(self._expected, Frame):
-            start = self._buffer.find(OPEN)
-            self._release(len(self._buffer) if start < 0 else start)
+            places = [place for place in (self._buffer.find(OPEN), self._buffer.find(b"?")) if place >= 0]
+            self._release(min(places, default=len(self._buffer)))  # a `?` may be the refusal
 
     def answer(self) -> Answer | None:
         """The answer to the present expectation, once it is complete."""
@@ -209,42 +209,19 @@ class Wire:
         came = bytes(self._buffer).decode("ascii")
         something = bool(came) or self._question
         came += "?" if self._question and "?" not in came else ""
-        self._expected = None
+        expected, self._expected = self._expected, None
+        refused = isinstance(expected, Frame | Proof) and self._take_refusal(expected)
+        if not refused and isinstance(expected, Proof | Prompts):
+            self.left.owe(self._prompts_of(expected))
         self._release(len(self._buffer))
-        return Answer(Kind.UNCERTAIN if something else Kind.SILENT, text=came, certain=False)
+        kind = Kind.UNCERTAIN if something else Kind.SILENT
+        return Answer(kind, text=came, certain=False, refused=refused)
 
     def forget(self) -> None:
         """Throws away everything, as after a lost link."""
         self._drop(len(self._buffer))
-        self._stray = 0
-        self._text, self._expected, self._question = "", None, False
-        self._lines.clear()
-        self._echoes.clear()
-
-    # ------------------------------------------------------------------ text
-
-    def lines(self) -> list[str]:
-        """Complete lines of unsolicited text since the last call."""
-        found = list(self._lines)
-        self._lines.clear()
-        return found
-
-    @property
-    def rest(self) -> str:
-        """Unsolicited text without its line end so far: perhaps the prompt of an IN."""
-        text = self._unprompted(self._text, take=False)
-        return "" if any(echo.startswith(text) for echo in self._echoes) else text
-
-    def take_rest(self) -> str:
-        rest = self.rest
-        self._text = ""
-        return rest
-
-    def strip_question(self) -> None:
-        """A `?` that turned out to be a refusal is taken out of the text."""
-        place = self._text.rfind("?")
-        if place >= 0:
-            self._text = self._text[:place] + self._text[place + 1 :]
+        self._expected, self._question = None, False
+        self.left.forget()
 
     # --------------------------------------------------------------- parsing
 
@@ -274,18 +251,19 @@ class Wire:
         start = self._buffer.find(mark)
         if start < 0 or len(self._buffer) == start + len(mark):
             return None
-        window = self._unprompted(self._window(start), take=True)  # prompts of a stop, which nobody waited for
-        self._drop(start + len(mark))
+        window = self.left.unprompted(self._window(start))  # prompts of a stop, which nobody waited for
+        self._take(start)
+        self._drop(len(mark))
         self._take_prompt()
         if not self.manners.error_ends_line and (place := window.find("?")) >= 0:
-            self._add_text(window[:place] + window[place + 1 :].replace(":", ""))
+            self.left.add(window[:place] + window[place + 1 :].replace(":", ""))
             return Answer(Kind.REFUSED)  # what stands behind it was carried out, so the frame proves nothing
-        text, certain = _without_prompts(window, expected.prompts if self.manners.prompt_per_command else 0)
-        if text and not (expected.data and certain):
-            self._add_text(text)
-        if not expected.data:
-            return Answer(Kind.ACCEPTED)
-        return Answer(Kind.ACCEPTED, text=text.replace("\r\n", "\n").rstrip("\n"), certain=certain)
+        text, exact = _without_prompts(window, expected.prompts if self.manners.prompt_per_command else 0)
+        whole = expected.reply == ANYTHING
+        reply, other = (text, "" if exact else text) if whole else _parted(text, expected.reply)
+        self.left.add(other)
+        shown = reply.replace("\r\n", "\n").rstrip("\n")
+        return Answer(Kind.ACCEPTED, text=shown, certain=exact or not whole)
 
     def _prompts(self, count: int) -> Answer | None:
         window = self._window(len(self._buffer))
@@ -297,8 +275,8 @@ class Wire:
                 seen, place = seen + 1, place + 1
                 if refused or seen == count:
                     rest = window[place:]
-                    self._drop(len(self._buffer))
-                    self._add_text(rest)
+                    self._take(len(self._buffer))
+                    self.left.add(rest)
                     kind = Kind.REFUSED if refused else Kind.ACCEPTED
                     return Answer(kind, text="\n".join(data), certain=not data and not rest)
                 continue
@@ -320,8 +298,8 @@ class Wire:
                 self._drop(len(self._buffer))
                 return Answer(Kind.REFUSED)
             return None
-        self._drop(len(self._buffer))
-        self._add_text(window[match.end() :])
+        self._take(len(self._buffer))
+        self.left.add(window[match.end() :])
         return Answer(Kind.ACCEPTED, text=window[: match.start()])
 
     def _revision(self) -> Answer | None:
@@ -329,30 +307,58 @@ class Wire:
         match = re.search(r"([^\r\n:?][^\r\n]*)\r\n:", window)
         if match is None:
             return None
-        self._drop(len(self._buffer))
-        self._add_text(window[: match.start()])
-        self._add_text(window[match.end() :])
+        self._take(len(self._buffer))
+        self.left.add(window[: match.start()])
+        self.left.add(window[match.end() :])
         return Answer(Kind.ACCEPTED, text=match.group(1).strip())
 
     # ---------------------------------------------------------------- pieces
 
     def _take_prompt(self) -> None:
-        """The prompt of a frame follows it; where other text came in between, it is a stray one."""
-        self._text = self._unprompted(self._text, take=True)
-        self._stray = 0  # everything asked before has been answered
+        """The prompt of a frame follows it; where other text came in between, it is owed."""
+        self.left.settled()
         if self._buffer[:1] == b":":
             self._drop(1)
         else:
-            self._stray = 1
+            self.left.owe(1)
+
+    def _prompts_of(self, expected: Proof | Prompts) -> int:
+        count = expected.prompts if isinstance(expected, Proof) else expected.count
+        return count if self.manners.prompt_per_command else 1
+
+    def _take_refusal(self, expected: Frame | Proof) -> bool:
+        """The refusal of what is given up is no text; a frame that comes all the same gives it back."""
+        ours = zip(self._buffer, self._marked, strict=True)
+        came = "".join("\0" if marked and byte in b":?" else chr(byte) for byte, marked in ours)
+        prompts = expected.before + 1 if isinstance(expected, Frame) else self._prompts_of(expected)
+        place = refusal(came, prompts)
+        if place is None:
+            return False
+        start, end = place
+        if isinstance(expected, Proof):
+            self.left.owe(prompts - (end - start))  # what was accepted before text came in between
+        self._release(start)
+        self._drop(end - start)
+        self.left.settled()
+        self.left.taken[expected.nonce] = came[start:end]
+        return True
 
     def _window(self, end: int) -> str:
         """What came before `end`, without marked characters and without the echo of the line sent."""
         mine = self.manners.answers_marked
         plain = bytes(b for b, marked in zip(self._buffer[:end], self._marked[:end], strict=True) if not marked or mine)
         text = plain.decode("ascii")
-        if self._echoes and text.startswith(self._echoes[-1]):
-            text = text[len(self._echoes[-1]) :].removeprefix("\r\n")
+        echoes = self.left.echoes
+        if echoes and text.startswith(echoes[-1]):
+            text = text[len(echoes[-1]) :].removeprefix("\r\n")
         return text
+
+    def _take(self, count: int) -> None:
+        """Drops what an answer was made of; what is marked in it is a program's text."""
+        if not self.manners.answers_marked:
+            marked = zip(self._buffer[:count], self._marked[:count], strict=True)
+            self.left.add("".join(chr(byte) for byte, mark in marked if mark))
+        self._drop(count)
 
     def _drop(self, count: int) -> None:
         del self._buffer[:count]
@@ -363,38 +369,15 @@ class Wire:
         if count:
             text = bytes(self._buffer[:count]).decode("ascii")
             self._drop(count)
-            self._add_text(text)
+            self.left.add(text)
 
-    def _add_text(self, text: str) -> None:
-        self._text = LATE.sub(self._late, self._text + text)
-        while "\n" in self._text:
-            line, self._text = self._text.split("\n", 1)
-            raw = line.rstrip("\r")
-            line = self._unprompted(raw, take=True)
-            if raw and not line:
-                continue
-            told = FAULT.match(line)  # an error tells the line of the program, which we may have sent a moment ago
-            echo = "" if told else next((echo for echo in self._echoes if line.endswith(echo)), "")
-            if not echo or line != echo:
-                self._lines.append(line.removesuffix(echo))
 
-    def _late(self, match: re.Match[str]) -> str:
-        """A frame nobody waits for any more is no text, but its mark is remembered."""
-        self.seen.append(match.group(1))
-        self._stray += 1
-        return ""
-
-    def owe(self, prompts: int) -> None:
-        """So many prompts may come that no expectation takes; they are no text."""
-        self._stray += prompts
-
-    def _unprompted(self, line: str, take: bool) -> str:
-        stray = self._stray
-        while stray and line[:1] in (":", "?") and not FAULT.match(line):
-            line, stray = line[1:], stray - 1
-        if take:
-            self._stray = stray
-        return line
+def _parted(text: str, reply: str) -> tuple[str, str]:
+    """The lines that look like the reply, and the rest."""
+    *lines, last = text.split("\r\n")
+    ours = [line for line in lines if re.fullmatch(reply, line)]
+    others = [line for line in lines if not re.fullmatch(reply, line)]
+    return "".join(f"{line}\r\n" for line in ours), "".join(f"{line}\r\n" for line in others) + last
 
 
 def _without_prompts(window: str, prompts: int) -> tuple[str, bool]:

@@ -8,7 +8,7 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from device.wire import Frame, Kind, Prompts, Proof, Revision, Shape, Upload, Wire, framed, nonces
+from device.wire import NOTHING, Frame, Kind, Prompts, Proof, Revision, Shape, Upload, Wire, framed, nonces
 
 TEXT = st.text(alphabet=":?\r\n 0123456789-.ABab\"'", max_size=40).map(lambda text: text.encode("ascii"))
 SHAPES = (Shape(10, 0), Shape(8, 0), Shape(2, 4), Shape(3, 0), Shape(10, 4))
@@ -56,7 +56,7 @@ def test_a_read_between_any_texts_is_right_at_any_cut(data: st.DataObject) -> No
         assert answers[0].kind is Kind.VALUES
         assert answers[0].values == tuple(float(value) for value in values)
         told += before + after
-    seen = "\n".join([*wire.lines(), wire.rest])
+    seen = "\n".join([*wire.left.lines(), wire.left.rest])
     assert seen.replace("\r", "").replace("\n", "") == told.decode().replace("\r", "").replace("\n", "")
 
 
@@ -83,7 +83,7 @@ def test_text_inside_a_frame_spoils_it_but_is_never_taken_for_a_value(data: st.D
 @given(TEXT, st.lists(st.integers(0, 200), max_size=4))
 def test_an_accepted_command_is_proved_between_any_texts(text: bytes, cuts: list[int]) -> None:
     wire = Wire()
-    wire.expect(Proof("ab", 1, data=False), 'SP 5;MG{^30},"ab",{^31}')
+    wire.expect(Proof("ab", 1, NOTHING), 'SP 5;MG{^30},"ab",{^31}')
     answers = fed(wire, text + b":" + b"\x1eab\x1f\r\n:" + text, cuts)
     assert [answer.kind for answer in answers] == [Kind.ACCEPTED]
     assert answers[0].text == ""
@@ -92,7 +92,7 @@ def test_an_accepted_command_is_proved_between_any_texts(text: bytes, cuts: list
 @given(TEXT, st.lists(st.integers(0, 200), max_size=4))
 def test_a_refused_command_is_never_taken_for_accepted(text: bytes, cuts: list[int]) -> None:
     wire = Wire()
-    wire.expect(Proof("ab", 1, data=False), 'SP 5;MG{^30},"ab",{^31}')
+    wire.expect(Proof("ab", 1, NOTHING), 'SP 5;MG{^30},"ab",{^31}')
     assert fed(wire, text + b"?" + text, cuts) == []
     assert wire.question
     assert wire.give_up().kind is Kind.UNCERTAIN
@@ -106,8 +106,8 @@ def test_the_mark_of_unsolicited_bytes_makes_no_difference(cuts: list[int]) -> N
     marked = bytes(byte | 0x80 for byte in b"HELLO\r\n\x1eaa-0000000021\x1f\r\n")
     answers = fed(wire, marked + b":", cuts)
     assert answers[0].values == (-21.0,)
-    assert wire.lines() == ["HELLO"]
-    assert wire.rest == ""
+    assert wire.left.lines() == ["HELLO"]
+    assert wire.left.rest == ""
 
 
 @given(st.booleans(), st.lists(st.integers(0, 80), max_size=5))
@@ -117,8 +117,8 @@ def test_echo_on_or_off_is_the_same(echo: bool, cuts: list[int]) -> None:
     wire.expect(Frame("aa", (Shape(10, 0),)), line)
     answers = fed(wire, (line.encode() + b"\r\n" if echo else b"") + b"\x1eaa 0000000007\x1f\r\n:", cuts)
     assert answers[0].values == (7.0,)
-    assert wire.lines() == []
-    assert wire.rest == ""
+    assert wire.left.lines() == []
+    assert wire.left.rest == ""
 
 
 def test_an_old_frame_is_not_the_answer_to_a_new_request() -> None:
@@ -128,7 +128,7 @@ def test_an_old_frame_is_not_the_answer_to_a_new_request() -> None:
     answer = wire.answer()
     assert answer is not None
     assert answer.values == (222.0,)
-    assert wire.lines() == []
+    assert wire.left.lines() == []
 
 
 def test_a_plain_command_counts_its_prompts() -> None:
@@ -183,8 +183,8 @@ def test_the_revision() -> None:
 def test_a_prompt_without_line_end_stands_there() -> None:
     wire = Wire()
     wire.feed(b"ENTER LENGTH")
-    assert wire.rest == "ENTER LENGTH"
-    assert wire.lines() == []
+    assert wire.left.rest == "ENTER LENGTH"
+    assert wire.left.lines() == []
 
 
 def test_silence_and_uncertainty_are_told_apart() -> None:
@@ -220,14 +220,15 @@ def test_a_long_upload_in_small_pieces_takes_little_time() -> None:
 def test_prompts_that_a_stop_left_are_no_part_of_the_next_text() -> None:
     """`\\ST` in command mode is answered by `?`, the second `ST` by a prompt; then the proof of `ST;HX` comes."""
     wire = Wire()
-    wire.owe(2)
-    wire.expect(Proof("ab", 2, data=False))
+    wire.left.owe(1)
+    wire.left.owe(1)
+    wire.expect(Proof("ab", 2, NOTHING))
     wire.feed(b"?:" + b"::" + b"\x1eab\x1f\r\n:")
     answer = wire.answer()
     assert answer is not None
     assert answer.kind is Kind.ACCEPTED
     wire.feed(b"?002 QQ 5\r\n")
-    assert wire.lines() == ["?002 QQ 5"]
+    assert wire.left.lines() == ["?002 QQ 5"]
 
 
 def test_prompts_of_commands_in_front_of_a_frame_are_no_text() -> None:
@@ -237,9 +238,107 @@ def test_prompts_of_commands_in_front_of_a_frame_are_no_text() -> None:
         wire.feed(came + reply(nonce, [5], [Shape(3, 0)]))
         answer = wire.answer()
         assert answer is not None and answer.values == (5.0,)
-        assert wire.rest == ""
-    assert wire.lines() == ["HELLO"]
+        assert wire.left.rest == ""
+    assert wire.left.lines() == ["HELLO"]
     wire.expect(Frame("ef", (Shape(3, 0),), before=1))
     wire.feed(b"?")  # refused: the rest of the line was not carried out
     assert wire.question and wire.give_up().kind is Kind.UNCERTAIN
-    assert wire.rest == ""
+    assert wire.left.rest == ""
+
+
+LINES = st.lists(st.text(alphabet='A:? 0."', max_size=8).map(lambda text: f"A{text}"), max_size=2)
+
+
+@given(st.data())
+def test_a_refused_line_that_is_given_up_leaves_nothing_in_the_text(data: st.DataObject) -> None:
+    """The `?` of a refusal stands where a line begins, behind the prompts of what was accepted on its line."""
+    wire = Wire()
+    told, stream = [], b""
+    accepted = data.draw(st.integers(0, 3))
+    for reply in [b":"] * accepted + [b"?"]:
+        texts = data.draw(LINES)
+        told += texts
+        stream += b"".join(f"{text}\r\n".encode() for text in texts) + reply
+    if data.draw(st.booleans()):
+        wire.expect(Proof("ab", data.draw(st.integers(accepted + 1, 5)), NOTHING))
+    else:
+        wire.expect(Frame("ab", (Shape(3, 0),), before=accepted))
+    assert fed(wire, stream, data.draw(st.lists(st.integers(0, 200), max_size=4))) == []
+    answer = wire.give_up()
+    assert (answer.kind, answer.refused) == (Kind.UNCERTAIN, True)
+    assert wire.left.rest == ""
+    behind = data.draw(st.text(alphabet=":?A", max_size=4))
+    wire.feed(f"{behind}\r\n".encode())  # what comes afterwards is a program's, also where it looks like replies
+    assert wire.left.lines() == [*told, behind]
+
+
+def test_a_fault_behind_a_refusal_is_no_refusal() -> None:
+    wire = Wire()
+    wire.expect(Proof("ab", 1, NOTHING))
+    wire.feed(b"??002 QQ 5\r\n")
+    assert wire.give_up().refused
+    assert wire.left.lines() == ["?002 QQ 5"]
+
+
+def test_the_question_of_a_program_is_no_refusal() -> None:
+    """A `?` at the end of a text stays, also where it is the text of an IN that stands there."""
+    wire = Wire()
+    wire.expect(Proof("ab", 1, NOTHING))
+    wire.feed(b"LENGTH?")
+    assert not wire.give_up().refused
+    assert wire.left.rest == "LENGTH?"
+
+
+def test_what_was_taken_for_a_refusal_comes_back_when_the_proof_comes_late() -> None:
+    wire = Wire()
+    wire.expect(Proof("ab", 1, NOTHING))
+    wire.feed(b"?")  # a program sent it
+    assert wire.give_up().refused
+    wire.feed(b"\x1eab\x1f\r\n:")
+    assert (wire.left.lines(), wire.left.rest) == (["?"], "")
+    assert list(wire.left.seen) == ["ab"]
+
+
+def test_a_proof_that_comes_late_leaves_none_of_its_prompts() -> None:
+    wire = Wire()
+    wire.expect(Proof("ab", 2, NOTHING))
+    assert wire.give_up().kind is Kind.SILENT
+    wire.feed(b"::\x1eab\x1f\r\n:HELLO\r\n")
+    assert wire.left.lines() == ["HELLO"]
+
+
+@given(LINES, LINES, st.lists(st.integers(0, 60), max_size=4))
+def test_only_what_looks_like_the_reply_is_the_reply(before: list[str], after: list[str], cuts: list[int]) -> None:
+    wire = Wire()
+    wire.expect(Proof("ab", 1, r" \$[0-9A-F]{8}\.[0-9A-F]{4}"))
+    lines = [*before, " $0000000A.8000", *after]
+    answers = fed(wire, "".join(f"{line}\r\n" for line in lines).encode() + b":\x1eab\x1f\r\n:", cuts)
+    assert [(each.kind, each.text) for each in answers] == [(Kind.ACCEPTED, " $0000000A.8000")]
+    assert wire.left.lines() == [*before, *after]
+
+
+@given(LINES, st.lists(st.integers(0, 60), max_size=4))
+def test_what_comes_beside_a_command_that_tells_nothing_is_a_programs(texts: list[str], cuts: list[int]) -> None:
+    wire = Wire()
+    wire.expect(Proof("ab", 1, NOTHING))
+    told = "".join(f"{text}\r\n" for text in texts).encode()
+    answers = fed(wire, told + b":\x1eab\x1f\r\n:", cuts)
+    assert [(each.kind, each.text, each.certain) for each in answers] == [(Kind.ACCEPTED, "", True)]
+    assert wire.left.lines() == texts
+
+
+def test_marked_text_beside_an_answer_is_not_lost() -> None:
+    """CW1 sets bit 7 of what a program sends (dmc-1412-1414.txt l.1332)."""
+    marked = bytes(byte | 0x80 for byte in b"HELLO\r\n")
+    for expected, stream in (
+        (Proof("ab", 1), marked + b" 12\r\n:\x1eab\x1f\r\n:"),
+        (Prompts(1), b" 12\r\n" + marked + b":"),
+        (Upload(), b"#A\r\n" + marked + b"EN\r\n\x1a\r\n:"),
+        (Revision(), marked + b"DMC1540 Rev 2.0h\r\n:"),
+    ):
+        wire = Wire()
+        wire.expect(expected)
+        wire.feed(stream)
+        answer = wire.answer()
+        assert answer is not None and "HELLO" not in answer.text
+        assert wire.left.lines() == ["HELLO"], expected
