@@ -92,7 +92,7 @@ class Quantity(Field):
         if problem := numeric_problem(self.label, value, context.setup) or self.scale_problem(value, context):
             return problem
         number = value_of(value)
-        if type(number) is not Fraction:
+        if type(number) is not Fraction or (self.literal and parse_number(value) is None):  # "(5)" and "$10" are code
             return f"{self.label} must be a plain number" if self.literal else None
         return self.range_problem(number, context)
 
@@ -181,7 +181,7 @@ class Number(Field):
         if problem := numeric_problem(self.label, value, context.setup):
             return problem
         number = value_of(value)
-        if type(number) is not Fraction:
+        if type(number) is not Fraction or (self.literal and parse_number(value) is None):  # "(5)" and "$10" are code
             return f"{self.label} must be a plain number" if self.literal else None
         if self.whole and number.denominator != 1:
             return f"{self.label} must be a whole number"

@@ -12,12 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen import read
+from codegen.by_hand import Arc, OneAxis
 from codegen.document import Document
 from codegen.fields import Dimension
 from codegen.generate import generate
 from codegen.instructions import AccelDecel, SingleAxisMove, Wait
 from codegen.program import Program, Step
 from codegen.setup import Axis, Setup, Unit, setup_problems
+from codegen.teach import Row
 
 SCALES = st.sampled_from(["1", "637", "4000", "39.37", "0.125", "1000000"])
 NUMBERS = st.fractions(min_value=-5000, max_value=5000, max_denominator=1000)
@@ -106,6 +108,15 @@ def test_a_wrong_scale_stops_every_program(scale: str, message: str) -> None:
     assert [finding.message for finding in setup_problems(one(scale))] == [message]
     listing = generate(Document(Program("P", main=(Step("s1", Wait(time="5")),)), one(scale)))
     assert not listing.is_complete and [finding.message for finding in listing.problems] == [message]
+
+
+@pytest.mark.parametrize("text", ["(100)", "$64", "-$64", "50+50"])
+def test_a_limit_that_only_an_expression_could_mean_is_refused(text: str) -> None:
+    """Brackets and hexadecimal digits are code: whoever takes the limit as a number would have none."""
+    setup = one("4000", forward_limit=text)
+    assert [finding.message for finding in setup_problems(setup)] == ["Axis X: Forward limit must be a plain number"]
+    for item, name in ((OneAxis(distance=text), "distance"), (Row(x=text), "x"), (Arc(sweep=text), "sweep")):
+        assert str(read.problem_of(item, name, one("4000"))).endswith("must be a plain number")
 
 
 def test_a_program_tells_once_of_a_scale_never_set_up() -> None:
