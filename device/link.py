@@ -4,30 +4,29 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import re
 import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from device.door import LEAVE, Door
+from device.outgoing import Outgoing, say_last
+from device.proof import bare
 from device.stop import stop_bytes
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Send, Step, Steps, Stopped, Task, Wait
 from device.transport import LineSettings, OpenFailed, Transport, TransportLost
 from device.wire import Answer, Kind, Wire
 
 T = TypeVar("T")
-AHEAD = 32  # bytes that may wait in the operating system
 PROMPT_QUIET_S = 0.06  # text without a line end that stands this long may be a question
-LAST_S = 0.3  # for the stop of what moves by hand, when the line is closed
 SILENCES = 3  # unanswered exchanges in a row that mean "does not answer"
 SILENT = "The controller does not answer."
 NOISY = (
     "The controller does not answer, but something comes over the line: "
     "is another device plugged in, or has the speed changed?"
 )
-PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")  # travels with a command
 ANSWER = Answer(Kind.ACCEPTED)
 
 
@@ -68,9 +67,7 @@ class Link:
         self._ready: list[Task[Any]] = []
         self._current: Task[Any] | None = None
         self._holder: Task[Any] | None = None
-        self._out = bytearray()
-        self._clear_at = 0.0
-        self._handed = 0  # bytes given to the transport in this round
+        self._out = Outgoing(line, clock)
         self._deadline = 0.0
         self._last_byte = 0.0
         self._told_rest = ""
@@ -134,20 +131,11 @@ class Link:
         if self.transport is not None:
             with contextlib.suppress(TransportLost):
                 self.transport.write((b"\\\r" if self._out else b"") + (LEAVE if self._holder is not None else b""))
-                self._say_last(self.last_words())
+                say_last(self.transport, self.last_words(), self._clock)
         self._fail_all(LinkLost("The connection was closed."), survivors=False)
         if self.transport is not None:
             self.transport.close()
             self.transport = None
-
-    def _say_last(self, words: bytes) -> None:
-        """Closing a port throws away what has not left: so a stop of what moves by hand is waited for."""
-        end = self._clock() + LAST_S
-        while words and self.transport is not None and self._clock() < end:
-            words = words[self.transport.write(words) :]
-            self.transport.read(0.005)
-        while words == b"" and self.transport is not None and self.transport.unsent() and self._clock() < end:
-            self.transport.read(0.005)
 
     def step(self) -> None:
         """Opens, reads, settles, sends: one round of at most a few milliseconds."""
@@ -158,7 +146,7 @@ class Link:
                 self._begin_stop()
             self._flush()
             self._receive()
-            self._handed = 0
+            self._out.new_round()
             while True:
                 self._settle()
                 self._start_next()
@@ -171,14 +159,13 @@ class Link:
     def _goes_on(self) -> bool:
         """Lines that get no answer follow each other without a gap, but replies are looked for every 32 bytes."""
         step = self._current.step if self._current is not None else None
-        return not self._out and isinstance(step, Send) and step.expect is None and 0 < self._handed < AHEAD
+        return not self._out and isinstance(step, Send) and step.expect is None and self._out.room_in_round
 
     def _open(self) -> bool:
         while self._incoming:
             task = self._incoming.popleft()
             self._finish(task, LinkLost("There is no connection to a controller."))
-        if self._stop is not None:
-            self._stop = None
+        self._stop = None
         if self._clock() < self._next_open:
             self._closing.wait(0.01)
             return False
@@ -189,8 +176,8 @@ class Link:
             self._owner.lost(str(reason), refused=True)
             return False
         self.wire.forget()
-        self._out.clear()
-        self._silences, self.sure, self._clear_at = 0, False, self._clock()
+        self._out.opened()
+        self._silences, self.sure = 0, False
         self._owner.opened()
         return True
 
@@ -211,8 +198,7 @@ class Link:
         whole = not self._out and self._holder is None
         sure = self.sure and whole and self.transport.unsent() == 0
         self.transport.discard_output()
-        self._out.clear()
-        self._clear_at = min(self._clear_at, self._clock() + AHEAD * self._line.byte_s)
+        self._out.discarded()
         self.wire.give_up()
         self._fail_all(Stopped("Dropped: STOP was pressed."), survivors=True)
         self.sure = False
@@ -329,7 +315,7 @@ class Link:
         self._current = task
         self._holder = task if step.hold else None
         self.wire.expect(step.expect, step.data.rstrip(b"\r").decode("ascii", "replace"))
-        self._out += step.data
+        self._out.put(step.data)
         self._deadline = self._clock() + step.timeout_s
         if step.expect is None:
             self.sure = False
@@ -337,31 +323,26 @@ class Link:
                 for _ in range(step.data.count(b"\r")):
                     self.wire.left.owe(1)
         shown = step.data.decode("ascii", "replace").rstrip("\r")
-        self.note(">", PROOF.sub("", shown) if task.source in ("user", "download") else shown, task.source)
+        self.note(">", bare(shown) if task.source in ("user", "download") else shown, task.source)
         self._owner.sent(step.data, task.source)
 
     # ------------------------------------------------------------- the steps
 
     def _advance(self, task: Task[Any], value: Answer | None) -> None:
+        self._go_on(task, partial(next, task.steps) if value is None else partial(task.steps.send, value))
+
+    def _throw(self, task: Task[Any], error: LinkError) -> None:
+        """Tells the steps; they may go on (polls do) or end with it."""
+        self._go_on(task, partial(task.steps.throw, error))
+
+    def _go_on(self, task: Task[Any], advance: Callable[[], Step]) -> None:
         try:
-            step = next(task.steps) if value is None else task.steps.send(value)
+            step = advance()
         except StopIteration as done:
             self._release(task)
             task.future.set_result(done.value)
         except (LinkError, TransportLost) as error:
             self._finish(task, error)
-        else:
-            self._queue(task, step)
-
-    def _throw(self, task: Task[Any], error: LinkError) -> None:
-        """Tells the steps; they may go on (polls do) or end with it."""
-        try:
-            step = task.steps.throw(error)
-        except StopIteration as done:
-            self._release(task)
-            task.future.set_result(done.value)
-        except (LinkError, TransportLost) as failure:
-            self._finish(task, failure)
         else:
             self._queue(task, step)
 
@@ -398,23 +379,12 @@ class Link:
     # -------------------------------------------------------------- output
 
     def _flush(self) -> None:
-        """Hands over at most so much that 32 bytes wait in the operating system."""
-        if not self._out or self.transport is None:
-            return
-        now = self._clock()
-        byte_s = self._line.byte_s
-        waiting = int(max(self._clear_at - now, 0.0) / byte_s) if byte_s else 0
+        """Hands over what may leave; behind the last byte of a line its time begins."""
         task = self._current
         urgent = task is not None and task.priority is Priority.STOP
-        room = len(self._out) if urgent else AHEAD - max(waiting, self.transport.unsent())
-        if room <= 0:
-            return
-        sent = self.transport.write(bytes(self._out[:room]))
-        del self._out[:sent]
-        self._handed += sent
-        self._clear_at = max(self._clear_at, now) + sent * byte_s
-        if not self._out and task is not None and isinstance(task.step, Send):
-            self._deadline = self._clear_at + task.step.timeout_s
+        whole = self.transport is not None and self._out.hand_over(self.transport, urgent)
+        if whole and task is not None and isinstance(task.step, Send):
+            self._deadline = self._out.clear_at + task.step.timeout_s
 
     def clear_rest(self) -> None:
         """The text that stands there is done with (its question was answered)."""

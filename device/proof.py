@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from codegen.twoletter import nodes
@@ -11,6 +12,7 @@ from device.door import LISTS
 from device.tasks import Send, Steps
 from device.wire import ANYTHING, NOTHING, Answer, Proof, framed
 
+PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")
 TELLING = LISTS | {"MG", "BS"} | {row.name for row in COMMANDS.values() if row.tells}
 
 
@@ -31,6 +33,11 @@ def with_proof(nonce: str, command: str, reply: str | None = None) -> tuple[byte
     if reply is None:
         reply = ANYTHING if any(tells(statement) for statement in statements) else NOTHING
     return f"{command};{framed(nonce, ())}\r".encode(), Proof(nonce, len(statements), reply)
+
+
+def bare(line: str) -> str:
+    """A line as it was meant, without the proof that travels with it."""
+    return PROOF.sub("", line)
 
 
 def tells(statement: nodes.Statement) -> bool:
