@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
+from app.asked import AskedOfMachine
 from app.connection import Connection
 from app.points import Points, file_name
 from app.run import Ask
@@ -23,9 +24,9 @@ from widgets.parts.units import shown
 
 if TYPE_CHECKING:
     from codegen.document import Document
+    from device.going import Ended
     from device.jog import Places, Plan
     from device.lease import Ran
-    from device.moving import Ended
     from device.steer import Drove
     from widgets.jog.drive import Drive
 
@@ -53,7 +54,8 @@ class ByHand(QObject):
         self._driven: Future[Any] | None = None
         self._going: dict[str, int] = {}  # where a planned move on its way ends, counts
         self._connection, self._session, self._tick = connection, session, tick
-        self._panel, self._ask, self._homed = panel, ask, homed
+        self._panel, self._homed = panel, homed
+        self._ask = AskedOfMachine(connection, ask, lambda why: panel.show_result(why, good=False))
         panel.hold_wanted.connect(self._hold)
         panel.run_wanted.connect(self._run)
         panel.drive_wanted.connect(self._drive)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
+from app.asked import AskedOfMachine
 from app.connection import Connection
 from app.run import Ask
 from app.tick import Tick, failure_of
@@ -42,7 +43,8 @@ class Variables(QObject):
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._connection, self._tick, self._panel, self._ask, self._folder = connection, tick, panel, ask, folder
+        self._connection, self._tick, self._panel, self._folder = connection, tick, panel, folder
+        self._ask = AskedOfMachine(connection, ask, lambda why: panel.say(why, good=False))
         panel.names_wanted.connect(self.read)
         panel.values_wanted.connect(self._read_values)
         panel.array_wanted.connect(self._read_array)

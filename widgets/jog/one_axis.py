@@ -60,9 +60,11 @@ class OneAxisPage(QWidget):
 
     def __init__(self, setup: Setup, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.item = beginning(setup)
+        self.item = beginning(setup, setup.letters[0])
         self._setup = setup
         self._letters = setup.letters
+        self._unit = unit_of(setup.axis(self.item.axis))
+        self._numbers: dict[str, OneAxis] = {}  # what was typed, by its unit
         self._reason = ""
         self.form = FieldsForm(Offers(setup), narrow=False)
         self.form.edited.connect(self._edited)
@@ -87,8 +89,7 @@ class OneAxisPage(QWidget):
     def show_setup(self, setup: Setup, letters: str) -> None:
         """Another machine."""
         self._setup, self._letters = setup, letters or setup.letters
-        if self.item.axis not in self._letters:
-            self.item = dc.replace(self.item, axis=self._letters[0])
+        self.item = self._in_its_unit(self.item.axis if self.item.axis in self._letters else self._letters[0])
         self.form.show_offers(Offers(setup))
         self.form.show_item(self.item)
         self._edited(self.item)
@@ -180,8 +181,19 @@ class OneAxisPage(QWidget):
 
     # ---- inside
 
+    def _in_its_unit(self, axis: str) -> OneAxis:
+        """The page for this axis: a number never goes over into another unit; those typed in it before come back."""
+        unit = unit_of(self._setup.axis(axis))
+        if unit != self._unit:
+            self._numbers[self._unit], self._unit = self.item, unit
+            self.item = self._numbers.get(unit) or beginning(self._setup, axis)
+        return dc.replace(self.item, axis=axis)
+
     def _edited(self, item: OneAxis) -> None:
         moved = item.axis != self.item.axis
+        if moved and unit_of(self._setup.axis(item.axis)) != self._unit:
+            item = self._in_its_unit(item.axis)
+            self.form.show_item(item)
         self.item = item
         self.form.item = item
         unit = unit_of(self._setup.axis(item.axis))
@@ -292,11 +304,11 @@ class OneAxisPage(QWidget):
         column.addLayout(homing)
 
 
-def beginning(setup: Setup) -> OneAxis:
+def beginning(setup: Setup, axis: str) -> OneAxis:
     """Slow and short on any machine: about 2000 counts/s and 1000 counts, in round numbers of its unit."""
-    scale = setup.axis(setup.letters[0]).scale
+    scale = setup.axis(axis).scale
     return OneAxis(
-        axis=setup.letters[0],
+        axis=axis,
         distance=plain(round_number(1000 / scale)),
         speed=plain(round_number(2000 / scale)),
         acceleration=plain(round_number(20_000 / scale)),

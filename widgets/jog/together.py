@@ -9,7 +9,7 @@ from typing import Any
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from codegen.fields import Dimension
+from codegen.fields import AXES, Dimension
 from codegen.setup import Setup
 from device.jog import Places, Plan
 from widgets.display.readings import unit_of
@@ -20,6 +20,13 @@ from widgets.jog.one_axis import enable
 from widgets.jog.speed import SpeedRow
 from widgets.panel import set_text, show_role
 from widgets.parts.look import look
+
+ALONG = ("radius", "speed", "acceleration", "deceleration")  # in the unit of the first axis
+
+
+def units_of(setup: Setup) -> dict[str, str]:
+    """The unit in which the numbers of each axis are typed."""
+    return {letter: unit_of(setup.axis(letter)) for letter in AXES}
 
 
 class TogetherPage(QWidget):
@@ -32,8 +39,9 @@ class TogetherPage(QWidget):
         self, item: Any, make: Callable[[Any, Setup], Plan | str], setup: Setup, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self.item = item
+        self.item, self._fresh = item, item
         self._make, self._setup = make, setup
+        self._units = units_of(setup)
         self.plan: Plan | None = None
         self.form = FieldsForm(Offers(setup))
         self.form.edited.connect(self._edited)
@@ -50,8 +58,17 @@ class TogetherPage(QWidget):
 
     def show_setup(self, setup: Setup) -> None:
         """Another machine."""
-        self._setup = setup
+        before, self._setup, self._units = self._units, setup, units_of(setup)
         self.form.show_offers(Offers(setup))
+        changed = [letter for letter in AXES if before[letter] != self._units[letter]]
+        if changed and hasattr(self.item, "distances"):
+            left = zip(AXES, self.item.distances, strict=True)
+            self.item = dc.replace(
+                self.item, distances=tuple("" if letter in changed else text for letter, text in left)
+            )
+        if self.item.axes[:1] in changed:
+            self.item = self._begun_anew(self.item)
+        self.form.show_item(self.item)
         self._edited(self.item)
 
     def show_usable(self, reason: str) -> None:
@@ -81,7 +98,15 @@ class TogetherPage(QWidget):
         """Why there is no plan, or nothing."""
         return "" if self.plan is not None else self.words.text()
 
+    def _begun_anew(self, item: Any) -> Any:
+        """What counts in the unit of the first axis, as at the start: a number never goes over into another unit."""
+        return dc.replace(item, **{name: getattr(self._fresh, name) for name in ALONG if hasattr(item, name)})
+
     def _edited(self, item: Any) -> None:
+        first, before = item.axes[:1], self.item.axes[:1]
+        if first and before and self._units[first] != self._units[before]:
+            item = self._begun_anew(item)
+            self.form.show_item(item)
         self.item = self.form.item = item
         made = self._make(item, self._setup)
         wrong = made if isinstance(made, str) else made.problem
