@@ -10,19 +10,26 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from device.going import Going
 from device.jog import Places, Plan, told
 from device.lease import AT_TARGET, CODE, COUNTS, FLAG, LOOK_S, Exchange, at, ended
-from device.moving import Going
 from device.tasks import LinkError, NotAllowed, Steps, Wait
-from device.wire import Kind, Shape
+from device.teach_time import seconds_of
+from device.wire import Kind, Shape, framed
 
 if TYPE_CHECKING:
     from codegen.setup import Setup
 
 AXES = "XY"
-INPUT_S = 0.05  # between two looks at the inputs
+INPUT_S = 0.02  # between two looks at the inputs
 SHORTEST_S = 0.02
 SILENT = 3  # readings without an answer, each asked twice
+REPLY = 12  # characters that prove a line
+POLL = 140  # characters of a reading of live values, there and back
+LATER_S = 0.004  # behind the end that was worked out; more where that was too soon
+LATEST_S = 0.04
+BREATH_S = 0.25  # the longest that live values wait for one of theirs
+Read = tuple[str, Shape]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +105,12 @@ def passes(ends: Sequence[tuple[int, tuple[int, int]]], places: Places, setup: S
     return ""
 
 
+def _there(move: Move) -> Read:
+    """A digit that is 0 where a move has ended and both axes are commanded to be at its end."""
+    away = "".join(f"+@ABS[_RP{letter}{-end:+d}]" for letter, end in zip(AXES, move.end, strict=True))
+    return f"_BGS{away}", FLAG
+
+
 class RowEnded(LinkError):
     """A row did not end as it should, on a controller that still answers."""
 
@@ -115,6 +128,10 @@ class PlayBack(Going):
     end: Mapping[str, int] = field(default_factory=dict)  # of the move that is on its way, counts
     _wanted: bool = False
     _sequence: bool = False
+    _ratio: float = 1.0  # VR
+    _stretch: float = 1.0  # true seconds to one of 1024 samples (TM)
+    _later: float = LATER_S
+    _breath: float = 0.0  # when live values had the line last
     _sent: dict[str, str] = field(default_factory=dict)  # speeds and ramps along the path, as they were sent last
 
     @classmethod
@@ -182,6 +199,9 @@ class PlayBack(Going):
         if numbers is None:
             raise LinkError("Not played back: the controller did not tell its speeds.")
         self.former = [(name, axis, int(value)) for (name, axis), value in zip(names, numbers, strict=True)]
+        pace = yield from self.exchange.read(("_VR", Shape(2, 4)), ("_TM", Shape(5, 0)))
+        if pace is not None:
+            self._ratio, self._stretch = pace[0], (pace[1] if pace[1] > 0 else 1000) / 1000
 
     def _hold(self, row: int) -> Steps[None]:
         """Step by step: waits for the person."""
@@ -235,24 +255,50 @@ class PlayBack(Going):
                 break
             self._sequence = move.sequence
             yield from self._taken(row, line)
-        yield from self._ended(row, ["_BGS"] if move.sequence else [f"_BG{letter}" for letter in AXES])
+        places = yield from self._ended(row, move)
         self._sequence, self.end = False, {}
         if not self.released:
-            yield from self._arrived(row, move)
+            yield from self._arrived(row, move, places)
 
-    def _ended(self, row: int, flags: Sequence[str]) -> Steps[None]:
-        """Waits until nothing of the move is left; a release stops it."""
+    def _ended(self, row: int, move: Move) -> Steps[Sequence[float]]:
+        """Waits until nothing of the move is left; a release stops it. Where both axes are commanded to be then.
+
+        Its end is known beforehand: the first look travels so that it is answered just behind it, in one digit, and
+        the next row leaves with that answer. It is one exchange a row, whatever lies between.
+        """
+        flags: list[Read] = [("_BGS", FLAG)] if move.sequence else [(f"_BG{letter}", FLAG) for letter in AXES]
+        reads = [*flags, *((f"_RP{letter}", COUNTS) for letter in AXES)]
+        first = [_there(move)] if move.sequence and not move.slack else reads
+        due = self._due(move, first)
         stopped, silent = False, 0
         while True:
+            yield from self._until(due)
             if self.released and not stopped:
                 stopped = yield from self._stop()
-            values = yield from self.exchange.read(*((flag, FLAG) for flag in flags))
-            if values is not None and not any(values):
-                return
-            silent = silent + 1 if values is None else 0
+            values = yield from self.exchange.read(*first)
+            if values is not None and not any(values[: len(flags)]):
+                return values[len(flags) :] or move.end
+            silent, first = (silent + 1 if values is None else 0), reads
             if silent == SILENT:
                 raise LinkError(f"Play-back ended in row {row + 1}: the controller does not answer.")
-            yield Wait(LOOK_S)
+            soon = self.exchange.clock() - due < LATEST_S
+            self._later = min(self._later + LATER_S, LATEST_S) if soon else self._later
+            due = max(due, self.exchange.clock() + (0.0 if soon else LOOK_S))
+
+    def _due(self, move: Move, reads: Sequence[Read]) -> float:
+        """When the look at the end of a move that has just begun has to leave; now, where its end is not known."""
+        now, byte_s = self.exchange.clock(), self.exchange.byte_s
+        lasts = seconds_of(move.commands, self._ratio) * self._stretch if move.sequence else 0.0
+        return now + max(lasts + self._later - (REPLY + len(framed("xx", reads)) + 1) * byte_s, 0.0)
+
+    def _until(self, due: float) -> Steps[None]:
+        """The line is others' until shortly before; then it is kept, so that no live value is in the way."""
+        kept_s = POLL * self.exchange.byte_s
+        while not self.released and (left := due - self.exchange.clock()) > 0:
+            keeps = left <= kept_s and self.exchange.clock() - self._breath < BREATH_S
+            if not keeps:
+                self._breath = self.exchange.clock()
+            yield Wait(min(left, SHORTEST_S) if keeps else min(max(left - kept_s, 0.001), SHORTEST_S), hold=keeps)
 
     def _new(self, command: str) -> bool:
         """Whether a speed or ramp of the path is another one than before; everything else is."""
@@ -262,13 +308,14 @@ class PlayBack(Going):
         known, self._sent[name] = self._sent.get(name), value
         return known != value
 
-    def _arrived(self, row: int, move: Move) -> Steps[None]:
+    def _arrived(self, row: int, move: Move, places: Sequence[float]) -> Steps[None]:
         """Both axes are commanded to be where the row ends; else something stopped them, and nothing goes on."""
-        reads = [(f"_RP{letter}", COUNTS) for letter in AXES] + [(f"_SC{letter}", CODE) for letter in AXES]
-        values = yield from self.exchange.read(*reads)
-        if values is None:
-            raise LinkError(f"Play-back ended in row {row + 1}: the controller did not say where the axes are.")
-        for letter, place, end, code in zip(AXES, values, move.end, values[2:], strict=False):
+        if all(abs(place - end) <= move.slack for place, end in zip(places, move.end, strict=True)):
+            return
+        codes = yield from self.exchange.read(*((f"_SC{letter}", CODE) for letter in AXES))
+        if codes is None:
+            raise LinkError(f"Play-back ended in row {row + 1}: the controller did not say why the axes stand.")
+        for letter, place, end, code in zip(AXES, places, move.end, codes, strict=True):
             if abs(place - end) > move.slack:
                 why = "It was stopped by something else." if code == AT_TARGET else ended(letter, int(code))
                 raise RowEnded(f"Play-back ended in row {row + 1}: axis {letter} did not arrive. {why}")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from concurrent.futures import Future
 from functools import partial
+from itertools import pairwise
 
 import pytest
 
@@ -13,7 +15,9 @@ from codegen.teach import Row, Table, counts_of
 from device.api import LinkError, NotAllowed, Places
 from device.teach import Action, Move, PlayBack, Played, approach, passes
 from device.teach_actions import actions_of, ends_of
+from device.teach_time import seconds_of
 from tests.device.bench import Bench
+from tests.long import record
 
 AXIS = dc.replace(Setup().axes[0], unit=Unit.MM, counts_per_unit="1000", reverse_limit="-50", forward_limit="200")
 SETUP = Setup(model="ssc2", axes=(AXIS,) * 4)
@@ -149,3 +153,42 @@ def test_a_row_beyond_a_limit_is_named() -> None:
     places = Places({"X": 0, "Y": 0}, {"X": 200_000, "Y": 200_000}, {"X": -50_000, "Y": -10_000})
     assert passes(ends, places, SETUP) == "Row 3: -20 mm lies beyond the reverse limit of Y, -10 mm."
     assert passes(ends[:1], places, SETUP) == ""
+
+
+def trapezoid_s(counts: float, speed: float = 50_000, ramp: float = 1_024_000) -> float:
+    """How long a line lasts: to its speed and back (speed²/ramp counts), or half way up and down again."""
+    if counts >= speed**2 / ramp:
+        return counts / speed + speed / ramp
+    return 2 * math.sqrt(counts / ramp)
+
+
+def test_rows_that_only_move_follow_each_other_with_one_exchange() -> None:
+    """At 19 200 baud: a digit back and the next move's 48 characters are 30 ms; live values do not come between."""
+    rows = tuple(place(f"{1 + n % 5}", f"{n * 7 % 4}") for n in range(12))
+    playing = Playing(rows)
+    playing.bench.controller.watch("panel", [f"{name}.{axis}" for name in ("position", "error") for axis in "xy"])
+    playing.until_row(1)
+    began = playing.bench.loopback.clock()
+    assert playing.bench.result(playing.future).finished
+    took = playing.bench.loopback.clock() - began
+    ways = [(1000 * math.dist(*((float(row.x), float(row.y)) for row in pair)), pair) for pair in pairwise(rows)]
+    each = (took - sum(trapezoid_s(counts) for counts, _ in ways)) / len(ways)
+    record(
+        "teach: from one row that moves to the next, 19 200 baud", "pytest tests/device/test_teach.py", None, each, "s"
+    )
+    assert 0 < each < 0.07
+    sent = [line.text for line in playing.bench.controller.traffic() if line.direction == ">" and "BG S" in line.text]
+    assert len(sent) == len(ways)
+
+
+def test_how_long_a_move_lasts_is_told_by_its_commands() -> None:
+    """Lines from the start of the path, half a circle of 1000 counts, another speed on the way, half the ratio."""
+    pace = ("VS 50000", "VA 1024000", "VD 1024000")
+    assert seconds_of((*pace, "VP 3000,4000", "VE", "BG S")) == pytest.approx(trapezoid_s(5000))
+    assert seconds_of((*pace, "LI 300,-400", "LE")) == pytest.approx(trapezoid_s(500))
+    bow = seconds_of((*pace, "VP 10000,0", "CR 1000,180,-180", "VP 12000,5000", "VE"))
+    assert bow == pytest.approx(trapezoid_s(10_000 + 1000 * math.pi + 5000))
+    two = seconds_of((*pace, "LI 50000", "LI 50000<25000", "LE"))
+    assert two == pytest.approx(1 + 2 + 50_000 / 2_048_000 + 25_000 / 2_048_000)
+    assert seconds_of((*pace, "LI 50000", "LE"), 0.5) == pytest.approx(trapezoid_s(50_000, 25_000))
+    assert seconds_of(("PA 5", "BG X")) == 0
