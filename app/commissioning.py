@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from codegen.setup import Axis
     from device.commissioning.judge import Moved
-    from device.tuning.guards import Former
+    from device.former import Former
     from widgets.commissioning.window import CommissioningWindow
     from widgets.program.printing import PrintPreview
 
@@ -364,7 +364,7 @@ class Commissioning(QObject):
     def _offer_left(self, controller: Controller) -> None:
         if not self.folder.is_dir():
             return
-        from device.tuning.guards import left_behind, meant
+        from device.former import left_behind, meant
 
         for former in left_behind(self.folder):
             if meant(former, controller):
@@ -380,17 +380,16 @@ class Commissioning(QObject):
                 return
 
     def _put_back(self, former: Former) -> None:
-        from device.commissioning.guarding import putting_back_of
+        from device.former import put_back
 
         def done(future: Future[Any]) -> None:
             self.said.emit(failure_of(future) or future.result())
             self._offered = None if not failure_of(future) else self._offered  # there may be another one
 
-        future = self.controller.run(putting_back_of(self.controller, former), Priority.USER, "user")
-        self._tick.when_done(future, done)
+        self._tick.when_done(put_back(self.controller, former, motor_off=True), done)
 
 
 def _drop(former: Former) -> None:
-    from device.tuning.guards import forget
+    from device.former import forget
 
     forget(former)

@@ -16,7 +16,7 @@ from app.tick import Tick, failure_of
 from device.api import Controller, Kind, State
 
 if TYPE_CHECKING:
-    from device.tuning.guards import Former
+    from device.former import Former
 
 TITLE = "A tuning was interrupted"
 
@@ -58,7 +58,7 @@ class Offer(QObject):
         """Asks about the axes of this controller, one after the other."""
         left = self._left(controller)
         if left:
-            from device.tuning.guards import now_there
+            from device.former import now_there
 
             former = left[0]
             self._tick.when_done(now_there(controller, former), partial(self._compare, controller, former))
@@ -67,7 +67,7 @@ class Offer(QObject):
         """The oldest of each axis: it holds the values from before all of them."""
         if not self._folder.is_dir():
             return []
-        from device.tuning.guards import left_behind, meant
+        from device.former import left_behind, meant
 
         found: dict[str, Former] = {}
         for former in left_behind(self._folder):
@@ -78,7 +78,7 @@ class Offer(QObject):
     def _tell_at_start(self) -> None:
         if not self._folder.is_dir():
             return
-        from device.tuning.guards import left_behind
+        from device.former import left_behind
 
         for former in left_behind(self._folder)[:1]:
             self.said.emit(
@@ -100,7 +100,7 @@ class Offer(QObject):
         self._put(controller, former, there)
 
     def _put(self, controller: Controller, former: Former, there: dict[str, int]) -> None:
-        from device.tuning.guards import number
+        from device.former import number
 
         differ = [name for name, value in former.values.items() if there.get(name) != value]
         now = ", ".join(f"{name} {number(there[name])}" for name in differ if name in there)
@@ -118,7 +118,7 @@ class Offer(QObject):
         self._ask(TITLE, words, answers, "warning")
 
     def _put_back(self, controller: Controller, former: Former) -> None:
-        from device.tuning.guards import put_back
+        from device.former import put_back
 
         if controller is not self._connection.controller:
             self.said.emit("Not put back: another controller is connected now.")
@@ -142,7 +142,7 @@ class Offer(QObject):
 
     def _forget(self, controller: Controller, former: Former) -> None:
         """All that was left of this axis; then the next one is asked about."""
-        from device.tuning.guards import forget, left_behind, meant
+        from device.former import forget, left_behind, meant
 
         for each in left_behind(self._folder):
             if each.axis == former.axis and meant(each, controller):

@@ -69,16 +69,19 @@ class Moved:
     torque: float = 0.0
     bounded: bool = False  # it left its bounds and was switched off from here
     changes: int = 0  # of the reading, until it stood
+    error: int = 0  # the error limit around it, counts
+    lost: bool = False  # it followed, and with more error allowed its reading stood still
 
     @property
     def way(self) -> int:
         """How far it came, in the asked direction."""
         return (self.end - self.start) * (1 if self.asked >= 0 else -1)
 
-    def with_before(self, before: Moved) -> Moved:
-        """With what the reading did in a try before, in which the axis seemed to stand."""
+    def after(self, before: Moved, asked: int) -> Moved:
+        """With what the reading did in the tries before, which had the same target."""
         changes = self.changes + before.changes
-        return dc.replace(self, low=min(self.low, before.low), high=max(self.high, before.high), changes=changes)
+        low, high = min(self.low, before.low), max(self.high, before.high)
+        return dc.replace(self, asked=asked, start=before.start, low=low, high=high, changes=changes)
 
     @property
     def toggled(self) -> bool:
@@ -264,6 +267,12 @@ def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
     if moved.toggled:
         words = "The reading only toggled by one count while the motor was driven: an encoder channel is dead."
         return Finding(FAILED, words, ENCODER_CAUSES, facts)
+    if moved.lost:
+        words = (
+            f"The axis followed for {moved.way} counts, then its reading stood still although it was driven: an "
+            "encoder channel died on the way, or the axis is jammed there."
+        )
+        return Finding(FAILED, words, (*ENCODER_CAUSES, *WEAK[3:4]), facts)
     if moved.furthest <= STIRRED:
         words = (
             f"The axis did not move, although it was driven{_stopped(moved)}. Did you see it turn? Then the encoder "

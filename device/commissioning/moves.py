@@ -4,13 +4,14 @@ A move is a relative one that is longer than the error limit around it: an axis 
 no power, the wrong polarity) is switched off by the controller itself, in the sample in which it happens, whether
 this computer lives or not. Former values are on disk before the first change, and put back with the motor off.
 
-The first move of all begins with a very small error limit, and with it little force; only an axis that stood still
-is tried with a larger one. So little happens before it is known that the encoder tells what the motor does.
+How far a motor runs whose encoder dies on the way depends on how much error is left to the limit. So every move begins
+with a very small error limit, and with it little force; where that ends it, it goes on with a slightly larger one.
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from fractions import Fraction
@@ -21,28 +22,32 @@ from typing import TYPE_CHECKING
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from device.backing_up import exact
-from device.commissioning.guarding import columns_of, exchange_of, guarded, keep_former, power_off, said, switch_off
+from device.commissioning.guarding import columns_of, exchange_of, guarded, power_off, switch_off
 from device.commissioning.judge import STIRRED, Moved
-from device.commissioning.steps import MOST
 from device.download import Job
+from device.former import Former, assign
 from device.lease import CODE, COUNTS, FLAG, Exchange
+from device.quiet import ready, said, still
 from device.tasks import LinkError, LinkLost, NotAllowed, Steps, Wait
-from device.tuning.guards import Former, assign, ready, still
 from device.wire import Shape
 
 if TYPE_CHECKING:
+    from codegen.models import Model
     from device.api import Controller
 
-TRIAL_COUNTS, TRIAL_ERROR = 300, 60  # counts of the polarity move, and its error limit
-LARGEST_TRIAL = 600  # counts: it may take two moves
+TRIAL_COUNTS, TRIAL_ERROR = 300, 60  # counts of the polarity move, and its largest error limit
+LARGEST_TRIAL = 600  # counts
+LARGEST_MOVE = 1000  # counts: what is left to MOST is for an encoder that dies on the way
 LARGEST_ERROR = 400  # counts: an axis with much friction needs more than the usual
-FEELERS = (10, 10, 10, 20, 40)  # error limits that are tried before, counts; a dead channel may look still once
+FEELERS = (10, 10, 10)  # error limits that are tried first, counts; a dead channel may look still once
+GROWTH = Fraction(13, 10)  # of the error limit from try to try
 RAN = 40  # counts backwards that are no sagging of a load that hangs
-SPEED, RAMP = 2000, 20480  # counts/s, counts/s²: slow to follow, quick enough to trip a dead encoder's error limit
+SPEED, RAMP = 1000, 5120  # counts/s, counts/s²: little error is needed to follow, so the limit can be small
 MARGIN = 200  # counts beyond the target before it is switched off from here
 SETTLE_S, LONGEST_S, COAST_S = 0.3, 8.0, 4.0
 STANDS = 6  # equal readings in a row
 VOLTS = Shape(2, 4)
+STEPPER = 2 * ONE  # |MT| from here on: a stepper
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,49 +64,61 @@ class Trial:
     @property
     def problem(self) -> str:
         """Why it may not be made, or nothing."""
-        if not self.counts or abs(self.counts) + self.error + MARGIN > MOST:
-            return f"no step moves an axis by more than {MOST - self.error - MARGIN} counts, or by none."
+        if not self.counts or abs(self.counts) > LARGEST_MOVE:
+            return f"no step moves an axis by more than {LARGEST_MOVE} counts, or by none."
         if not 1 <= self.error <= LARGEST_ERROR:
             return f"the error limit of a first move is 1 to {LARGEST_ERROR} counts."
         return "" if 0 < self.torque < 10 else "the torque limit lies above 0 and below 10 V."
 
+    def errors(self) -> Iterator[int]:
+        """The error limits to try, one after the other."""
+        error = Fraction(FEELERS[-1])
+        yield from (each for each in FEELERS if each < self.error)
+        while (error := error * GROWTH) < self.error:
+            yield int(error)
+        yield self.error
+
 
 def move(c: Controller, trial: Trial, folder: Path, now: datetime, job: Job[Moved]) -> Steps[Moved]:
-    """Guards around the axis, one relative move, motor off, everything put back."""
-    former = yield from _begin(c, trial, folder, now)
-    return (yield from guarded(c, former, lambda: _driven(c, trial, former, former.place, job)))
-
-
-def first_move(c: Controller, trial: Trial, folder: Path, now: datetime, job: Job[Moved]) -> Steps[Moved]:
-    """The same for an axis of which nothing is known yet: with little force first."""
-    if abs(trial.counts) > LARGEST_TRIAL:
-        raise NotAllowed(f"Not moved: the first move is {LARGEST_TRIAL} counts at most.")
-    former = yield from _begin(c, trial, folder, now)
-    return (yield from guarded(c, former, lambda: _felt(c, trial, former, job)))
-
-
-def _begin(c: Controller, trial: Trial, folder: Path, now: datetime) -> Steps[Former]:
+    """Guards around the axis, a relative move, motor off, everything put back."""
     model = ready(c, trial.axis, "Not moved")
     if trial.problem:
         raise NotAllowed(f"Not moved: {trial.problem}")
     yield from still(c, model, "Not moved")
     yield from switch_off(c, trial.axis, "Not moved")
-    return (yield from keep_former(c, trial.axis, folder, now))
+    yield from _as_set_up(c, model, trial)
+    return (yield from guarded(c, trial.axis, folder, now, lambda former: _climbing(c, trial, former, job)))
 
 
-def _felt(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Steps[Moved]:
-    """Larger and larger error limits, as long as the axis stands still; one that follows a little gets the last."""
-    before, place = None, former.place
-    for error in (*(each for each in FEELERS if each < trial.error), trial.error):
-        moved = yield from _driven(c, dc.replace(trial, error=error), former, place, job)
-        moved = moved if before is None else moved.with_before(before)
-        if error == trial.error or not moved.tripped or moved.toggled or moved.way < -RAN:
-            return moved
-        place = moved.end
-        if moved.way > STIRRED:
-            break
-        before = moved if moved.furthest <= STIRRED else None
-    return (yield from _driven(c, trial, former, place, job))
+def _as_set_up(c: Controller, model: Model, trial: Trial) -> Steps[None]:
+    """A stepper is not driven as a servo, nor a servo as a stepper."""
+    told = yield from exact(c.nonces, [f"_MT{trial.axis}"], model.columns)
+    kind = told[0] or 0
+    if (abs(kind) >= STEPPER) != trial.stepper:
+        names = ("stepper", "servo") if abs(kind) >= STEPPER else ("servo", "stepper")
+        raise NotAllowed(
+            f"Not moved: the controller drives axis {trial.axis} as a {names[0]} (MT {kind / ONE:g}), the setup says "
+            f"{names[1]}. Send the setup to the controller first."
+        )
+
+
+def _climbing(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Steps[Moved]:
+    """Towards one place, with larger and larger error limits as long as one of them ends it on the way."""
+    target, place = former.place + trial.counts, former.place
+    if trial.stepper:
+        return (yield from _driven(c, trial, place, former, job))
+    before, best, stood = None, 0, 0
+    for error in trial.errors():
+        there = yield from _driven(c, dc.replace(trial, counts=target - place, error=error), place, former, job)
+        moved = there if before is None else there.after(before, trial.counts)
+        stood = stood + 1 if there.high - there.low <= 1 else 0
+        lost = there.tripped and best > 2 and stood * best > STIRRED  # at once where it went far, else the second time
+        if not there.tripped or moved.toggled or lost or there.way < -RAN or error == trial.error:
+            return dc.replace(moved, lost=lost)
+        before, place, best = moved, there.end, max(best, there.high - there.low)
+        if abs(target - place) < 2 * int(error * GROWTH) or (target - place) * trial.counts < 0:
+            return moved  # what is left would not reach the error limit
+    raise AssertionError  # the last of the errors returns
 
 
 def _coasted(exchange: Exchange, where: str, place: int, end: float) -> Steps[list[int]]:
@@ -118,7 +135,7 @@ def _coasted(exchange: Exchange, where: str, place: int, end: float) -> Steps[li
     return places
 
 
-def _driven(c: Controller, trial: Trial, former: Former, start: int, job: Job[Moved]) -> Steps[Moved]:
+def _driven(c: Controller, trial: Trial, start: int, former: Former, job: Job[Moved]) -> Steps[Moved]:
     axis, exchange = trial.axis, exchange_of(c)
     low, high = sorted((start, start + trial.counts))
     guards = {
@@ -127,6 +144,7 @@ def _driven(c: Controller, trial: Trial, former: Former, start: int, job: Job[Mo
         "TL": min(COMMANDS["TL"].stored(scaled(trial.torque)), former.values["TL"]),
         "FL": scaled(high + MARGIN),
         "BL": scaled(low - MARGIN),
+        "KI": 0,  # it would push harder and harder against a reading that stands
     }
     pace = {"SP": scaled(SPEED), "AC": scaled(RAMP), "DC": scaled(RAMP), "IT": ONE}
     yield from assign(c, axis, guards | pace)
@@ -144,7 +162,7 @@ def _driven(c: Controller, trial: Trial, former: Former, start: int, job: Job[Mo
 
 
 def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: Job[Moved]) -> Steps[Moved]:
-    """Looks until the move has ended and settled, or left its bounds; then the motor is off."""
+    """Looks until the move has ended and the axis stands, or left its bounds; then the motor is off."""
     axis, places = trial.axis, [start]
     where = f"_{'RP' if trial.stepper else 'TP'}{axis}"
     end, settled, bounded = c.clock() + LONGEST_S, 0.0, False
@@ -153,6 +171,7 @@ def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: J
         if told is None or job.cancelled or c.clock() > end:
             raise LinkError("The move was ended from here; the motor is off.")
         off, moving, place = (int(value) for value in told)
+        stands = bool(settled) and abs(place - places[-1]) <= 1  # a dead channel stands too: then every moment counts
         places.append(place)
         job.show("moving", abs(place - start), abs(trial.counts))
         way = (place - start) * (1 if trial.counts > 0 else -1)
@@ -160,7 +179,7 @@ def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: J
         settled = settled or (0.0 if moving else c.clock())
         if bounded:
             yield from power_off(c, axis)
-        if off or bounded or (settled and c.clock() - settled > SETTLE_S):
+        if off or bounded or stands or (settled and c.clock() - settled > SETTLE_S):
             break
     volts = yield from exchange.read((f"_TT{axis}", VOLTS))
     yield from power_off(c, axis)
@@ -184,6 +203,7 @@ def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: J
         volts[0],
         bounded,
         changes,
+        trial.error,
     )
 
 

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 from device import commands
 from device.backing_up import exact
 from device.backup import Value
-from device.commissioning.guarding import exchange_of, finish, keep_former, said, switch_off
+from device.commissioning.guarding import exchange_of, guarded, switch_off
+from device.former import Former, assign
 from device.lease import FLAG
-from device.tasks import LinkError, LinkLost, Steps
-from device.tuning.guards import assign, forget, ready, still
+from device.quiet import ready, said, still
+from device.tasks import Steps
 
 if TYPE_CHECKING:
     from device.api import Controller
@@ -51,22 +52,18 @@ def look_at_switches(c: Controller, axis: str) -> Steps[Mapping[str, int] | None
 def set_values(
     c: Controller, axis: str, values: Mapping[str, Value], folder: Path, now: datetime
 ) -> Steps[tuple[Mapping[str, Value], Mapping[str, Value]]]:
-    """Sets limits with the motor off; what was there and what is there now. Put back where one is refused."""
+    """Sets registers with the motor off; what was there and what is there now. Put back where one is refused."""
     model = ready(c, axis, "Not set")
     yield from still(c, model, "Not set")
     yield from switch_off(c, axis)
-    former = yield from keep_former(c, axis, folder, now)
-    try:
+
+    def body(former: Former) -> Steps[tuple[Mapping[str, Value], Mapping[str, Value]]]:
         yield from assign(c, axis, values)
-    except LinkLost:
-        raise  # the file stays, and is offered when the controller answers again
-    except LinkError as reason:
-        yield from finish(c, former, str(reason))
-        raise
-    found = yield from exact(c.nonces, [f"_{name}{axis}" for name in values], model.columns)
-    forget(former)
-    there = {name: value for name, value in zip(values, found, strict=True) if value is not None}
-    return former.values, there
+        found = yield from exact(c.nonces, [f"_{name}{axis}" for name in values], model.columns)
+        there = {name: value for name, value in zip(values, found, strict=True) if value is not None}
+        return former.values, there
+
+    return (yield from guarded(c, axis, folder, now, body, also=tuple(values), lasting=True))
 
 
 def burn(c: Controller, axis: str) -> Steps[commands.Reply]:

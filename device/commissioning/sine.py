@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, TypeVar
 from codegen.twoletter.fixed import ONE
 from device import commands
 from device.backing_up import REFUSAL_S, exact
-from device.commissioning.guarding import columns_of, power_off, said, switch_off, until_stopped
+from device.commissioning.guarding import columns_of, power_off, switch_off
 from device.commissioning.judge import Moved
 from device.commissioning.moves import TRIAL_ERROR, Trial, move
 from device.commissioning.steps import MOST
-from device.download import Job, proved
+from device.download import Job
+from device.proof import proved
+from device.quiet import ready, said, still, until_stopped
 from device.tasks import LinkLost, NotAllowed, Steps, Stopped
-from device.tuning.guards import ready, still
 from device.wire import Kind
 
 if TYPE_CHECKING:

@@ -19,11 +19,13 @@ from device.backing_up import LINE_S, REFUSAL_S, exact
 from device.capture import Capture, Channel, Plan, most
 from device.capturing import CaptureJob, capture_steps
 from device.download import Job, proved
+from device.former import Former, assign
 from device.lease import at
+from device.quiet import ready
 from device.tasks import LinkError, Steps, Wait
 from device.tuning.automatic import Chosen, Search, Seen, search, vibrates
 from device.tuning.excite import Excitation, NotIdentified, excitation
-from device.tuning.guards import Cancelled, Fault, Former, Guard, assign, not_stopped, ready, watch
+from device.tuning.guards import Cancelled, Fault, Guard, not_stopped, watch
 from device.tuning.loop import Gains, period
 from device.tuning.metrics import Metrics, Response, measure
 from device.tuning.recording import Recording

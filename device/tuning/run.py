@@ -13,12 +13,14 @@ from codegen.twoletter.fixed import ONE
 from device import commands
 from device.backing_up import exact
 from device.download import Job
+from device.former import Former, assign
+from device.quiet import ready, still
 from device.setup_transfer import BURN_S
 from device.tasks import NotAllowed, Priority, Steps
 from device.tuning.automatic import VELOCITY
 from device.tuning.bench import ALL, Excited, Found, Measured, Told, Wish, bench, gains_of, registers
 from device.tuning.entry import gains_words
-from device.tuning.guards import Former, assign, guarded, ready, still
+from device.tuning.guards import guarded
 from device.tuning.loop import Gains, period
 
 if TYPE_CHECKING:

@@ -19,8 +19,8 @@ from shiboken6 import isValid
 from codegen.twoletter.fixed import ONE
 from device.capture import Channel
 from device.capture_file import load
+from device.former import Former, keep, left_behind
 from device.simulator.plant import Drive, Plant
-from device.tuning.guards import Former, keep, left_behind
 from device.tuning.logbook import Logbook
 from tests.app.test_controls import controls, describe, name_of, reachable
 from tests.long import is_long, record

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from concurrent.futures import Future
 from datetime import datetime
 from pathlib import Path
@@ -9,8 +10,8 @@ from typing import Any, TypeVar
 
 from device.api import Job
 from device.commissioning.judge import Moved
-from device.commissioning.moves import Trial, first_move
-from device.simulator.kernel import layout
+from device.commissioning.moves import Trial, move
+from device.simulator.kernel import inputs, layout
 from device.simulator.plant import Plant
 from device.tasks import Priority, Steps
 from tests.device.bench import Bench
@@ -31,6 +32,7 @@ class Machine(Bench):
         super().__init__(name, plants={"X": plant or bearing()}, **more)
         self._rest = 0.0
         self.furthest = 0.0  # counts since `rest`
+        self._dies: tuple[str, float] | None = None
         self.ready()
 
     @property
@@ -45,6 +47,20 @@ class Machine(Bench):
     def step(self) -> None:
         super().step()
         self.furthest = max(self.furthest, abs(self.place - self._rest))
+        if self._dies is not None and self.furthest >= self._dies[1]:
+            self.kill_channel(self._dies[0])
+
+    def dies(self, channel: str, at: float) -> None:
+        """A channel of the encoder, "a" or "b", fails once the motor has come so far from `rest`."""
+        self._dies = channel, at
+
+    def kill_channel(self, channel: str) -> None:
+        """From now on the channel stays low; the counter goes on from where it is."""
+        part, number = self.simulation.motion._parts[0], float(" ab".index(channel))
+        raw = float(math.floor(part[layout.MOTOR_X] + 0.5))
+        part[layout.DEAD_CHANNEL] = number
+        part[layout.COUNTS_SHIFT] += (raw - inputs.toggled(raw, number)) * part[layout.ENCODER_SIGN]
+        self._dies = None
 
     def carry_out(self, steps: Steps[T]) -> T:
         future: Future[T] = self.controller.run(steps, Priority.USER, "user")
@@ -53,7 +69,7 @@ class Machine(Bench):
     def try_move(self, folder: Path, trial: Trial | None = None, job: Job[Moved] | None = None) -> Moved:
         """The polarity move; afterwards the motor coasts until it stands."""
         self.rest()
-        moved = self.carry_out(first_move(self.controller, trial or Trial("X", 300), folder, NOW, job or Job()))
+        moved = self.carry_out(move(self.controller, trial or Trial("X", 300), folder, NOW, job or Job()))
         self.run(3.0)
         return moved
 

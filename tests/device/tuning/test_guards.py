@@ -14,10 +14,11 @@ import pytest
 from codegen.twoletter.fixed import ONE
 from device.api import StopState
 from device.backing_up import LINE_S
-from device.download import proved
+from device.former import Former, keep, left_behind, meant, now_there, put_back
+from device.proof import proved
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped, Wait
 from device.tuning import guards
-from device.tuning.guards import Fault, Former, Guard, guarded
+from device.tuning.guards import Fault, Guard, guarded
 from tests.rig import Rig
 
 WHEN = datetime(2026, 11, 22, 12, 0)
@@ -204,24 +205,24 @@ def test_a_cut_cable_leaves_a_file_that_puts_everything_back_later(tmp_path: Pat
 
     with pytest.raises(LinkError):
         rig.result(begin(rig, tmp_path, body))
-    (left,) = guards.left_behind(tmp_path)
-    assert left.gains() == "KP 6.125, KI 0.5, KD 80" and guards.meant(left, rig.controller)
+    (left,) = left_behind(tmp_path)
+    assert left.gains() == "KP 6.125, KI 0.5, KD 80" and meant(left, rig.controller)
     assert held(rig)["OE"] == 1 and held(rig)["ER"] == 900  # what holds the axis meanwhile
     rig.loopback.unplugged = False
     rig.run(3.0)
     rig.controller.take_control()
-    told = rig.result(guards.now_there(rig.controller, left))
+    told = rig.result(now_there(rig.controller, left))
     assert told["KP"] == 20 * ONE
-    assert "KP 6.125, KI 0.5, KD 80" in rig.result(guards.put_back(rig.controller, left))
+    assert "KP 6.125, KI 0.5, KD 80" in rig.result(put_back(rig.controller, left))
     assert_former(rig)
-    assert guards.left_behind(tmp_path) == ()
+    assert left_behind(tmp_path) == ()
 
 
 def test_values_of_another_machine_are_not_offered(tmp_path: Path) -> None:
     rig = ready()
     former = Former("X", "ssc2", 4711, "simulator", "", WHEN.isoformat(), 0, {"KP": ONE}, tmp_path / "a.before-tuning")
-    guards.keep(former)
-    (left,) = guards.left_behind(tmp_path)
-    assert left == former and not guards.meant(left, rig.controller)
+    keep(former)
+    (left,) = left_behind(tmp_path)
+    assert left == former and not meant(left, rig.controller)
     former.file.write_text('{"axis": "X"')
-    assert guards.left_behind(tmp_path) == ()
+    assert left_behind(tmp_path) == ()

@@ -15,8 +15,8 @@ import pytest
 
 from codegen.twoletter.fixed import ONE
 from device.api import Controller
+from device.former import left_behind, meant, put_back
 from device.simulator.process import SimulatorProcess
-from device.tuning.guards import left_behind, meant, put_back
 from tests.device.test_latency import NO_PTY
 from tests.device.tuning.life import BAUD, STEP, connected
 from tests.long import count, record
