@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from codegen.models import MODELS, Model
 from device import commands, jog, live
-from device.asking import Listing, Prompt, Waiting
+from device.asking import Prompt, Waiting
 from device.clock import Clock
 from device.commands import Reply
 from device.door import Door
-from device.download import Downloaded, DownloadFailed, Job, program_lines
+from device.download import Downloaded, DownloadFailed, Job
 from device.events import Event, EventList, What
+from device.going import Ended
 from device.hands import Io, Memory
 from device.happenings import Badge, Kind, Notice, NoticeKind, State
 from device.identify import Identity, mismatch, who
@@ -25,11 +26,12 @@ from device.jog import Places, Plan, Routine
 from device.lease import Ran
 from device.link import Link, Owner, Traffic
 from device.meeting import Events
-from device.moving import Ended, Motion, NeedsConfirmation
+from device.moving import Motion, NeedsConfirmation
 from device.own import OwnSimulator
 from device.poll import Poller
 from device.ring import EMPTY, Row
-from device.stop import NO_ANSWER_S, Stopping, StopState
+from device.stop import StopState
+from device.stop_button import StopButton
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Refused, Send, Steps, Stopped, data_line
 from device.transport import ONLY_WATCHED, LineSettings, OpenFailed, Transport, open_transport
 from device.wire import Manners, nonces
@@ -41,39 +43,11 @@ if TYPE_CHECKING:
     from codegen.setup import Setup
 
 __all__ = [
-    "Badge",
-    "Controller",
-    "DownloadFailed",
-    "Downloaded",
-    "Ended",
-    "Event",
-    "EventList",
-    "Identity",
-    "Job",
-    "Kind",
-    "LineSettings",
-    "LinkError",
-    "LinkLost",
-    "NeedsConfirmation",
-    "NotAllowed",
-    "Notice",
-    "NoticeKind",
-    "OwnSimulator",
-    "Places",
-    "Plan",
-    "Prompt",
-    "Ran",
-    "Refused",
-    "Reply",
-    "Routine",
-    "Row",
-    "State",
-    "StopState",
-    "Stopped",
-    "Traffic",
-    "What",
-    "jog",
-]
+    "Badge", "Controller", "DownloadFailed", "Downloaded", "Ended", "Event", "EventList", "Identity", "Job", "Kind",
+    "LineSettings", "LinkError", "LinkLost", "NeedsConfirmation", "NotAllowed", "Notice", "NoticeKind",
+    "OwnSimulator", "Places", "Plan", "Prompt", "Ran", "Refused", "Reply", "Routine", "Row", "State", "StopState",
+    "Stopped", "Traffic", "What", "jog",
+]  # fmt: skip
 T = TypeVar("T")
 
 
@@ -101,18 +75,15 @@ class Controller:
         self.state_text = "Offline" if opener is None else "Connecting…"
         self.identity: Identity | None = None
         self.model = model
-        self._stop_state = StopState.NO_LINK
-        self._stopping: Stopping | None = None
-        self.stop_pressed_at = 0.0
-        self.stopping_time_s: float | None = None
+        self.stopping_time_s: float | None = None  # None: the controller is asked
         self.idle_limit_s = idle_limit_s
         self.io_control = False
-        self.listing: str | None = None
         self.program_folder = program_folder
         self.door = Door(self.line.address)
         self.waiting = Waiting()
         self.nonces = nonces()
         self.poller = Poller(self.line, clock, self.nonces, self.resting, self._read, self._nothing_runs)
+        self.stopper = StopButton(self)
         self.memory = Memory(self)
         self.motion = Motion(self)
         self.io = Io(self)
@@ -120,9 +91,6 @@ class Controller:
         self.known_models = dict(known_models or {})
         self.simulator = own
         self._notices: deque[Notice] = deque(maxlen=2000)
-        self._document: str | None = None
-        self._document_lines: list[str] = []
-        self._listing_lines: list[str] = []
         self.clock_there = Clock()
         self.doubt = False  # whether the controller may have been restarted or exchanged meanwhile
         self._used = clock()
@@ -200,7 +168,8 @@ class Controller:
         self.link.close()
         if self.simulator is not None:
             self.simulator.close()
-        self.state, self.state_text, self._stop_state = State.OFFLINE, "Offline", StopState.NO_LINK
+        self.state, self.state_text = State.OFFLINE, "Offline"
+        self.show_stop(StopState.NO_LINK)
 
     def leave(self) -> None:
         """Closes without making the caller wait for the line or a process of ours to end."""
@@ -246,69 +215,20 @@ class Controller:
 
     def stop(self, then: Callable[[bool], None] = lambda still: None) -> None:
         """Stops everything, ahead of everything; pressed again while it is not proved, it aborts."""
-        if self.kind is Kind.REPLAY:
-            self.notify(NoticeKind.STOP, "There is nothing to stop: this is a recording.")
-            then(False)
-            return
-        if self.link.transport is None:
-            self.show_stop(StopState.NO_LINK if self.state is State.OFFLINE else StopState.NOT_CONFIRMED)
-            then(False)
-            return
-        again = self._stopping is not None or self._stop_state is StopState.STOPPING
-        self.motion.let_go()
-        self._stopping, self.stop_pressed_at = None, self.clock()
-        self.show_stop(StopState.STOPPING)
-        self.link.stop(lambda sure: self._stop_steps(sure, again, then))
-
-    def _stop_steps(self, sure: bool, abort: bool, then: Callable[[bool], None]) -> Steps[bool]:
-        model = self.model
-        self._stopping = stopping = Stopping(
-            command_mode=sure and not self.resting() and self.line.address is None,  # others in a chain prove nothing
-            axes=self.axes or "X",
-            sequence=model is not None and model.coordinated,
-            threads=model.threads if model is not None else 1,
-            columns=model.columns if model is not None else 40,
-            address=self.line.address,
-            stopping_time_s=self.stopping_time_s,
-            clock=self.clock,
-            nonces=self.nonces,
-            show=self.show_stop,
-            abort=abort,
-            heard=self.stop_pressed_at,
-        )
-        still = False
-        try:
-            still = yield from stopping.steps()
-        finally:
-            self._stopping = None
-            then(still)
-        if still:
-            self.waiting.restarted()
-            self.waiting.unfinished = False
-            self.waiting.threads(frozenset())
-            self.door.question = ""
-        return still
+        self.stopper.press(then)
 
     @property
     def stop_state(self) -> StopState:
-        """What the STOP button shows; 500 ms without an answer is NOT CONFIRMED, whatever the link is doing."""
-        if self._stop_state is StopState.STOPPING:
-            stopping = self._stopping
-            heard = self.stop_pressed_at if stopping is None else stopping.heard
-            if self.clock() - heard >= NO_ANSWER_S:
-                self.show_stop(StopState.NOT_CONFIRMED)
-        return self._stop_state
+        """What the STOP button shows."""
+        return self.stopper.look()
 
     @property
-    def stop_text(self) -> str:
-        return str(self.stop_state)
+    def stop_pressed_at(self) -> float:
+        return self.stopper.pressed_at
 
     def show_stop(self, state: StopState) -> None:
         """The stop is now known to be in this state."""
-        if state is not self._stop_state:
-            self._stop_state = state
-            if state in (StopState.STOPPING, StopState.STOPPED, StopState.NOT_CONFIRMED):
-                self.notify(NoticeKind.STOP, f"STOP: {state}.")
+        self.stopper.show(state)
 
     # --------------------------------------------------------------- asking
 
@@ -431,49 +351,29 @@ class Controller:
     def burn_program(self) -> Future[Reply]:
         return self.memory.burn_program()
 
+    @property
+    def listing(self) -> str | None:
+        """What the controller is known to hold."""
+        return self.memory.listing
+
+    def set_listing(self, listing: str | None) -> None:
+        self.memory.set_listing(listing)
+
     def show_listing(self, text: str) -> None:
         """The code of the document now; the badge compares it with what the controller holds."""
-        if text != self._document:
-            self._document, self._document_lines = text, program_lines(text)
+        self.memory.show_listing(text)
 
     @property
     def program_badge(self) -> Badge:
-        if self.listing is None or self.doubt:
-            return Badge.UNKNOWN
-        if self._document is None:
-            return Badge.CHANGED
-        return Badge.SAME if self._document_lines == self._listing_lines else Badge.CHANGED
+        return self.memory.badge
 
     def execute(self, label: str | None = None, thread: int = 0, anyway: bool = False) -> Future[Reply]:
         """Starts the verified program at a label; `anyway` runs what is in the controller."""
-        if self.program_badge is not Badge.SAME and not anyway:
-            future: Future[Reply] = Future()
-            words = (
-                "has changed since the download"
-                if self.program_badge is Badge.CHANGED
-                else "in the controller is unknown"
-            )
-            future.set_exception(
-                NotAllowed(f"Not started: the program {words}. Download it, or run what is in the controller.")
-            )
-            return future
-        target = "" if label is None else (label if label.startswith("#") else f"#{label}")
-        command = f"XQ {target}" + (f",{thread}" if thread or target else "") if target else "XQ"
-        return self.ask(command)
+        return self.memory.execute(label, thread, anyway)
 
     def halt(self) -> Future[Reply]:
         """Ends all programs, then all motion; as STOP does where a line could become an answer."""
-        if not self.resting():
-            return self.run(commands.halt(self), Priority.USER, "user")
-        halted: Future[Reply] = Future()
-        self.stop(lambda still: halted.set_result(Reply("", still, still, 0, "" if still else "Not confirmed.")))
-        return halted
-
-    def set_listing(self, listing: str | None) -> None:
-        """What the controller is known to hold (on the link's thread)."""
-        self._listing_lines = program_lines(listing or "")
-        self.listing = listing
-        self.waiting.listing = Listing(listing) if listing is not None else None
+        return self.memory.halt()
 
     # ---------------------------------------------------------------- notices
 

@@ -7,9 +7,10 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING
 
 from device import commands
+from device.asking import Listing
 from device.commands import Reply
-from device.download import Download, Downloaded, DownloadFailed, Job, recover, upload_steps
-from device.happenings import NoticeKind
+from device.download import Download, Downloaded, DownloadFailed, Job, program_lines, recover, upload_steps
+from device.happenings import Badge, NoticeKind
 from device.moving import refused
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped
 
@@ -18,10 +19,53 @@ if TYPE_CHECKING:
 
 
 class Memory:
-    """Programs in and out, and what survives switching off."""
+    """Programs in and out, started and ended, and what survives switching off."""
 
     def __init__(self, controller: Controller) -> None:
         self._c = controller
+        self.listing: str | None = None  # what the controller is known to hold
+        self._held: list[str] = []  # its lines
+        self._document: str | None = None
+        self._shown: list[str] = []  # the lines of the document
+
+    def set_listing(self, listing: str | None) -> None:
+        """What the controller is known to hold (on the link's thread)."""
+        self._held = program_lines(listing or "")
+        self.listing = listing
+        self._c.waiting.listing = Listing(listing) if listing is not None else None
+
+    def show_listing(self, text: str) -> None:
+        """The code of the document now."""
+        if text != self._document:
+            self._document, self._shown = text, program_lines(text)
+
+    @property
+    def badge(self) -> Badge:
+        """How what the controller holds and the document stand to each other."""
+        if self.listing is None or self._c.doubt:
+            return Badge.UNKNOWN
+        if self._document is None:
+            return Badge.CHANGED
+        return Badge.SAME if self._shown == self._held else Badge.CHANGED
+
+    def execute(self, label: str | None, thread: int, anyway: bool) -> Future[Reply]:
+        """Starts the verified program at a label; `anyway` runs what is in the controller."""
+        if self.badge is not Badge.SAME and not anyway:
+            changed = self.badge is Badge.CHANGED
+            words = "has changed since the download" if changed else "in the controller is unknown"
+            return refused(f"Not started: the program {words}. Download it, or run what is in the controller.")
+        target = "" if label is None else (label if label.startswith("#") else f"#{label}")
+        command = f"XQ {target}" + (f",{thread}" if thread or target else "") if target else "XQ"
+        return self._c.ask(command)
+
+    def halt(self) -> Future[Reply]:
+        """Ends all programs, then all motion; as STOP does where a line could become an answer."""
+        c = self._c
+        if not c.resting():
+            return c.run(commands.halt(c), Priority.USER, "user")
+        halted: Future[Reply] = Future()
+        c.stop(lambda still: halted.set_result(Reply("", still, still, 0, "" if still else "Not confirmed.")))
+        return halted
 
     def download(
         self, listing: str, progress: Callable[[Job[Downloaded]], None] | None = None, old: str | None = None

@@ -199,9 +199,9 @@ class Events:
         new = c.state is not State.LOST or c.state_text != sentence
         c.doubt = c.identity is not None
         c.state, c.state_text = State.LOST, sentence
-        if c._stop_state is StopState.STOPPING:
+        if c.stopper.state is StopState.STOPPING:
             c.show_stop(StopState.NOT_CONFIRMED)
-        elif c._stop_state is not StopState.NOT_CONFIRMED:
+        elif c.stopper.state is not StopState.NOT_CONFIRMED:
             c.show_stop(StopState.NO_LINK)
         if new:
             c.notify(NoticeKind.LOST, sentence)

@@ -93,7 +93,7 @@ def terminal(options: argparse.Namespace) -> int:
                 break
             except KeyboardInterrupt:
                 controller.stop()
-                print(controller.stop_text, file=sys.stderr)
+                print(controller.stop_state, file=sys.stderr)
         end = time.monotonic() + LAST_MESSAGES_S
         while time.monotonic() < end:
             show_notices(controller)
