@@ -2,93 +2,181 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from app.by_hand import ByHand
-from app.event_list import Happened
-from app.ghosts import Ghosts
-from app.operator import Operator
-from app.pads import Pads
-from app.points import Points
-from app.recorder import Recorded
-from app.scope import Scope
-from app.search import Candidate
-from app.teach import Teach
-from app.tuner_part import TunerPart
-from app.variables import Variables
 from app.window import BOTTOM, RIGHT
-from widgets.events.panel import EventsPanel
-from widgets.jog.panel import JogPanel
-from widgets.operator.panel import OperatorPanel
-from widgets.panel import Panel
-from widgets.plane.panel import PlanePanel
-from widgets.recorder.panel import RecorderPanel
-from widgets.scope.panel import ScopePanel
-from widgets.teach.panel import TeachPanel
-from widgets.values.panel import ValuesPanel
 
 if TYPE_CHECKING:
+    from PySide6.QtCore import Qt
+
     from app.compose import Studio
+    from app.search import Candidate
+    from widgets.panel import Panel
 
 
 class AtMachine:
-    """`panels` want rows and notices; `docks` are titles, panels and places."""
+    """Made by `pieces`; each panel hears of ticks, controllers and documents from the moment it is made."""
 
-    def __init__(
-        self, studio: Studio, data: Path, clock: Callable[[], float], ports: Callable[[], list[Candidate]]
-    ) -> None:
-        connection, tick, ask = studio.connection, studio.tick, studio.desk.ask
-        self.plane, self.keys = PlanePanel(clock=clock), OperatorPanel()
-        self.jog, self.values, self.event_list = JogPanel(clock=clock), ValuesPanel(), EventsPanel()
-        self.variables = Variables(connection, tick, self.values, ask, studio.files.folder, studio)
-        self.operator = Operator(connection, tick, self.keys, ports, studio)
-        self.happened = Happened(connection, studio.session, tick, self.event_list, data, studio.window)
-        self.by_hand = ByHand(
-            connection, studio.session, tick, self.jog, ask, studio.ear.homed_axes, studio.settings,
-            Points(data / "points"), studio,
-        )  # fmt: skip
-        self.ghosts = Ghosts(studio.display, self.plane, self.jog, studio.ear.homed_axes)
-        self.ghosts.sources.append(self.by_hand.ghost)
-        tick.each(self.ghosts.look)
-        self.pads = Pads()
-        self.pads.add(self.jog)
-        tick.each(self.pads.look)
+    def __init__(self, studio: Studio, ports: Callable[[], list[Candidate]]) -> None:
+        self._studio, self._ports = studio, ports
+        self.panels: tuple[Panel, ...] = ()
+
+    def pieces(self) -> Iterator[None]:
+        """First those that hear what happens and keep it, then the panels with their docks, in order of the menu."""
+        self._events()
+        yield
+        self._recorder()
+        yield
+        yield from self._moving()
+        self._operator()
+        yield
+        self._tuner()
+        yield
+        self._scope()
+        yield
+        self._values()
+        yield
+        self._dock(self.event_list, BOTTOM)
+        yield
+        self._dock(self.tape, BOTTOM)
+
+    def _add(self, panel: Panel) -> None:
+        """Works with what is connected and open from now on."""
+        studio = self._studio
+        self.panels += (panel,)
+        studio.tick.add(panel)
+        panel.attach(studio.connection.controller)
+        panel.show_document(None, studio.session.document)
+
+    def _dock(self, panel: Panel, area: Qt.DockWidgetArea) -> None:
+        self._studio.desk.add(panel.title, panel, area)
+
+    # ---- what hears
+
+    def _events(self) -> None:
+        from app.event_list import Happened
+        from widgets.events.panel import EventsPanel
+
+        studio = self._studio
+        self.event_list = EventsPanel()
+        self.happened = Happened(
+            studio.connection, studio.session, studio.tick, self.event_list, studio.data, studio.window
+        )
+        self.happened.said.connect(studio.desk.say)
+        self.event_list.line_wanted.connect(studio.ear.reveal)
+        self.event_list.help_wanted.connect(studio.desk.show_help)
+        self._add(self.event_list)
+        self._add(self.happened.ear)
+
+    def _recorder(self) -> None:
+        from app.recorder import Recorded
+        from widgets.recorder.panel import RecorderPanel
+
+        studio = self._studio
         self.tape = RecorderPanel()
         self.recorded = Recorded(studio, studio.recorder, self.tape, studio.files.folder)
         self.recorded.said.connect(studio.desk.say)
         self.happened.recording = self.recorded.kept
-        self.tuning = TunerPart(studio, data)
-        self.curves = ScopePanel()
-        self.scope = Scope(
-            connection, studio.session, tick, self.curves, data / "captures", clock, studio.window, studio
-        )
-        self.scope.said.connect(studio.desk.say)
-        self.scope.note = studio.recorder.note
+        self._add(self.tape)
+        self._add(self.recorded.ear)
+
+    # ---- what moves
+
+    def _moving(self) -> Iterator[None]:
+        from app.by_hand import ByHand
+        from app.pads import Pads
+        from app.points import Points
+        from widgets.jog.panel import JogPanel
+
+        yield
+        studio = self._studio
+        self.jog = JogPanel(clock=studio.now)
+        self.by_hand = ByHand(
+            studio.connection, studio.session, studio.tick, self.jog, studio.desk.ask, studio.ear.homed_axes,
+            studio.settings, Points(studio.data / "points"), studio,
+        )  # fmt: skip
+        self.pads = Pads()
+        self.pads.add(self.jog)
+        studio.tick.each(self.pads.look)
+        self._add(self.jog)
+        self._dock(self.jog, RIGHT)
+        yield
+        self._plane()
+        yield
+        self._teach()
+        yield
+
+    def _plane(self) -> None:
+        from app.ghosts import Ghosts
+        from widgets.plane.panel import PlanePanel
+
+        studio = self._studio
+        self.plane = PlanePanel(clock=studio.now)
+        self.ghosts = Ghosts(studio.display, self.plane, self.jog, studio.ear.homed_axes)
+        self.ghosts.sources.append(self.by_hand.ghost)
+        studio.tick.each(self.ghosts.look)
+        self._add(self.plane)
+        self._dock(self.plane, RIGHT)
+
+    def _teach(self) -> None:
+        from app.teach import Teach
+        from widgets.teach.panel import TeachPanel
+
+        studio = self._studio
         self.table = TeachPanel(clock=studio.now)
         self.teach = Teach(
-            connection, studio.session, tick, self.table, self.plane, ask, studio.ear.homed_axes, studio.files.folder,
-            data, studio.now, studio,
+            studio.connection, studio.session, studio.tick, self.table, self.plane, studio.desk.ask,
+            studio.ear.homed_axes, studio.files.folder, studio.data, studio.now, studio,
         )  # fmt: skip
         self.pads.add(self.table)
         self.ghosts.sources.append(self.teach.play.ghost)
-        self.event_list.line_wanted.connect(studio.ear.reveal)
+        self._add(self.table)
+        self._dock(self.table, RIGHT)
+
+    # ---- what is looked at
+
+    def _operator(self) -> None:
+        from app.operator import Operator
+        from widgets.operator.panel import OperatorPanel
+
+        studio = self._studio
+        self.keys = OperatorPanel()
+        self.operator = Operator(studio.connection, studio.tick, self.keys, self._ports, studio)
         self.operator.tap = lambda opener: studio.recorder.channel().tap(opener)
-        self.event_list.help_wanted.connect(studio.desk.show_help)
-        self.happened.said.connect(studio.desk.say)
-        self.panels: tuple[Panel, ...] = (
-            self.plane, self.keys, self.jog, self.values, self.event_list, self.happened.ear,
-            self.tape, self.recorded.ear, self.curves, self.table, self.tuning.panel,
+        self._add(self.keys)
+        self._dock(self.keys, RIGHT)
+
+    def _tuner(self) -> None:
+        from app.tuner_part import TunerPart
+
+        self.tuning = TunerPart(self._studio, self._studio.data)
+        self._add(self.tuning.panel)
+        self._dock(self.tuning.panel, RIGHT)
+
+    def _scope(self) -> None:
+        from app.scope import Scope
+        from widgets.scope.panel import ScopePanel
+
+        studio = self._studio
+        self.curves = ScopePanel()
+        self.scope = Scope(
+            studio.connection, studio.session, studio.tick, self.curves, studio.data / "captures", studio.now,
+            studio.window, studio,
         )  # fmt: skip
-        self.docks = (
-            ("Jog", self.jog, RIGHT),
-            ("X-Y view", self.plane, RIGHT),
-            ("Teach", self.table, RIGHT),
-            ("Operator terminal", self.keys, RIGHT),
-            ("Tuner", self.tuning.panel, RIGHT),
-            ("Scope", self.curves, BOTTOM),
-            ("Variables", self.values, BOTTOM),
-            ("Events", self.event_list, BOTTOM),
-            ("Recorder", self.tape, BOTTOM),
+        self.scope.said.connect(studio.desk.say)
+        self.scope.note = studio.recorder.note
+        self._add(self.curves)
+        self._dock(self.curves, BOTTOM)
+
+    def _values(self) -> None:
+        from app.variables import Variables
+        from widgets.values.panel import ValuesPanel
+
+        studio = self._studio
+        self.values = ValuesPanel()
+        self.variables = Variables(
+            studio.connection, studio.tick, self.values, studio.desk.ask, studio.files.folder, studio
         )
+        self._add(self.values)
+        self._dock(self.values, BOTTOM)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ from app.folding import Folding
 from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.importing import Importing
+from app.late import Late
 from app.leaving import Leaving
 from app.live_values import LiveValuesReader
 from app.options import Options
@@ -96,8 +97,9 @@ class Studio(QObject):
         self.setup = SetupDesk(self.window, self.session, self.connection, self.tick, self.desk.ask, self.right, data)
         self.limits = SetupLimits(self.connection, self.session, self.tick, self.desk.ask, self)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
-        self._data = data
-        self.run.before = lambda reason, go_on: self.proof.keeping.before(reason, go_on)
+        self.data = data
+        self.late = Late(self, ports)
+        self.run.before = lambda reason, go_on: self.late.proof.keeping.before(reason, go_on)
         self.run.before_start = self.limits.careful
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
@@ -121,8 +123,7 @@ class Studio(QObject):
         self.program.live = LiveValuesReader(self.connection, self.tick)
         self.stop_key = StopKey(application, self.connection.stop)
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
-        self._ports = ports
-        self.panels: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
+        self._first: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
         self._fill_window()
         self._join()
         self._attach(self.connection.controller)
@@ -141,8 +142,7 @@ class Studio(QObject):
         """At the end: no more ticks, the connection closed, the hooks given back."""
         self.tick.stop()
         self.search.cancel()
-        if "at_machine" in self.__dict__:
-            self.at_machine.pads.close()
+        self.late.close()
         self.connection.close()
         self.recorder.close()
         self.crash.uninstall()
@@ -150,33 +150,33 @@ class Studio(QObject):
         self.theme.release()
 
     def _handlers(self) -> dict[str, Callable[[], None]]:
-        desk, run, start = self.desk, self.run, self.start
+        desk, run, start, late = self.desk, self.run, self.start, self.late
         return {
             "new": self._new, "open": self.files.open, "save": self.files.save, "save_as": self.files.save_as,
             "recover": desk.show_unsaved,
             "import_module": lambda: self.importing.ask_file(self.files.folder()),
             "export_code": self.files.export_code, "options": self.options.show, "exit": self._exit,
             "layout_program": partial(desk.arrange, "Program"), "layout_run": partial(desk.arrange, "Run"),
-            "layout_tune": partial(self._arrange, "Tune"),
+            "layout_tune": partial(late.arrange, "Tune"),
             "theme_system": partial(self._theme, "system"), "theme_light": partial(self._theme, "light"),
             "theme_dark": partial(self._theme, "dark"),
             "setup": self.setup.show, "program": self._program, "terminal": partial(desk.bring, "Terminal"),
-            "plane": partial(self._bring, "X-Y view"), "operator": partial(self._bring, "Operator terminal"),
-            "teach": partial(self._bring, "Teach"),
-            "scope": self._bring_scope,
-            "events": partial(self._bring, "Events"), "recorder": partial(self._bring, "Recorder"),
-            "open_recording": self._open_recording,
+            "plane": partial(late.bring, "X-Y view"), "operator": partial(late.bring, "Operator terminal"),
+            "teach": partial(late.bring, "Teach"),
+            "scope": late.bring_scope,
+            "events": partial(late.bring, "Events"), "recorder": partial(late.bring, "Recorder"),
+            "open_recording": late.open_recording,
             "editor": self.editor.show,
-            "commissioning": lambda: self.commissioning.show(),
-            "jog": partial(self._bring, "Jog"), "tune": self._tune, "variables": partial(self._bring, "Variables"),
+            "commissioning": lambda: late.commissioning.show(),
+            "jog": partial(late.bring, "Jog"), "tune": late.tune, "variables": partial(late.bring, "Variables"),
             "display": partial(desk.bring, "Display"), "simulator_panel": partial(desk.bring, "Simulator"),
             "connect": start.look, "serial": start.show_serial, "doctor": self.doctor.show,
             "simulator": start.use_simulator, "disconnect": start.disconnect_now,
             "take_control": self._toggle_control,
             "download": run.download, "execute": run.execute, "halt": run.halt, "burn": run.burn, "upload": run.upload,
             **{f"execute_{each}": partial(run.execute_slowly, each) for each in PERCENTS},
-            "compare": lambda: self.proof.comparing.show(), "backups": lambda: self.proof.backups.show(),
-            "handover": lambda: self.proof.handing.show(), "print_pack": lambda: self.proof.handing.show_pack(),
+            "compare": lambda: late.proof.comparing.show(), "backups": lambda: late.proof.backups.show(),
+            "handover": lambda: late.proof.handing.show(), "print_pack": lambda: late.proof.handing.show_pack(),
             "stop": self.connection.stop, "help": desk.help_for_focus,
             "about": self._about, "help_wiring": self._wiring,
             "help_programming": partial(desk.show_help, "Programming"),
@@ -203,13 +203,11 @@ class Studio(QObject):
         for panel in self.panels:
             self.tick.add(panel)
         for look in (
-            self._make_panels,
             self.leaving.look,
             self.ear.look,
             self.follow.look,
             self.setup.look,
-            lambda: self.proof.look(self.follow.known),
-            self._look_commissioning,
+            self.late.look,
             lambda: self.editor.look(self.follow.known),
             self.which.look,
             self.met.look,
@@ -245,50 +243,25 @@ class Studio(QObject):
         for complaint in self.settings.complaints:
             self.desk.say(complaint)
 
-    @cached_property
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """All that hear of controllers and documents, as far as they are made."""
+        return self._first + self.late.panels
+
+    @property
     def at_machine(self) -> AtMachine:
-        """Jog, X-Y view, variables, events, operator terminal; made with the first tick, as they open later."""
-        from app.at_machine import AtMachine
+        """The panels at the machine, made at once where they are not there yet."""
+        return self.late.at_machine
 
-        made = AtMachine(self, self._data, self.now, self._ports)
-        self.panels += made.panels
-        for panel in made.panels:
-            self.tick.add(panel)
-            panel.attach(self.connection.controller)
-            panel.show_document(None, self.session.document)
-        for title, panel, area in made.docks:
-            self.desk.add(title, panel, area)
-        return made
-
-    @cached_property
+    @property
     def proof(self) -> BackupPart:
-        """Compare, back-ups, handover; made with the first tick, because the first window does not need it."""
-        from app.backup_part import BackupPart
+        """Compare, back-ups, handover."""
+        return self.late.proof
 
-        proof = BackupPart(
-            self.connection, self.run, self.session, self.desk.ask, self._data, self.tick, self.program, self.window
-        )
-        proof.comparing.show_step.connect(self.program.reveal_step)
-        proof.backups.act.connect(lambda name: self.actions[name].trigger())
-        proof.said.connect(self.desk.say)
-        return proof
-
-    @cached_property
+    @property
     def commissioning(self) -> Commissioning:
-        """Bringing an axis to life; made when it is wanted, or when an interrupted step may have left something."""
-        from app.commissioning import Commissioning
-
-        made = Commissioning(
-            self.connection, self.session, self.tick, self.desk.ask, lambda: self.follow.known, self._data, self.window
-        )
-        made.said.connect(self.desk.say)
-        made.help_wanted.connect(self.desk.show_help)
-        return made
-
-    def _look_commissioning(self) -> None:
-        made = "commissioning" in self.__dict__
-        if made or (self.connection.controller.control and (self._data / "commissioning").is_dir()):
-            self.commissioning.look()
+        """Bringing an axis to life."""
+        return self.late.commissioning
 
     def _join_window(self) -> None:
         window = self.window
@@ -360,42 +333,11 @@ class Studio(QObject):
         """An empty program for the machine whose setup was finished last."""
         self.files.careful("Start a new program?", lambda: self.session.new(self.setup.default))
 
-    def _make_panels(self) -> None:
-        """With the first tick, those that the first window does not need."""
-        assert self.at_machine
-
-    def _bring(self, title: str) -> None:
-        """A panel that may have to be made first."""
-        self._make_panels()
-        self.desk.bring(title)
-
-    def _bring_scope(self) -> None:
-        self._make_panels()
-        self.at_machine.scope.bring(self.window.docks["Scope"])
-        self.desk.bring("Scope")
-
-    def _open_recording(self) -> None:
-        self._bring("Recorder")
-        self.at_machine.recorded.ask_open()
-
-    def _tune(self) -> None:
-        """The tuner needs room: in its layout, unless it has a window of its own."""
-        self._make_panels()
-        dock = self.window.docks["Tuner"]
-        if not dock.isFloating() and self.window.centralWidget().isVisible():
-            self.desk.arrange("Tune")
-        dock.bring()
-
     def _program(self) -> None:
         """The program, also where a layout has put it away."""
         if not self.window.centralWidget().isVisible():
             self.desk.arrange("Program")
         self.program.setFocus()
-
-    def _arrange(self, layout: str) -> None:
-        """A layout with panels that may have to be made first."""
-        self._make_panels()
-        self.desk.arrange(layout)
 
     def _toggle_control(self) -> None:
         self.talk.control(not self.connection.controller.control)

@@ -117,6 +117,7 @@ class Stage:
         for _ in range(ticks):
             self.clock.pass_by(TICK_S)
             self.studio.tick.once()
+            self.studio.late.making.finish()  # as after the first half second
             QApplication.processEvents()
 
     def until(self, true: Callable[[], object], seconds: float = 20.0) -> None:

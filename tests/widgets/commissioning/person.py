@@ -31,7 +31,7 @@ class Person:
         """`done`: so many steps were passed at an earlier time."""
         self.stage = stage
         found = {step.key: Finding(Verdict.PASSED, "Passed.") for step in steps_for(False, False)[:done]}
-        assert keep(Record("X", model, SERIAL, findings=found), stage.studio._data / "commissioning") == ""
+        assert keep(Record("X", model, SERIAL, findings=found), stage.studio.data / "commissioning") == ""
         setup = dc.replace(stage.studio.session.document.setup, model=model)
         document = dc.replace(stage.studio.session.document, setup=setup)
         stage.studio.session.set_document(document, "Machine")

@@ -1,0 +1,126 @@
+"""What the first window does not need: made after it, a piece with each tick, or at once when it is wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from widgets.parts.pieces import Pieces
+
+if TYPE_CHECKING:
+    from app.at_machine import AtMachine
+    from app.backup_part import BackupPart
+    from app.commissioning import Commissioning
+    from app.compose import Studio
+    from app.search import Candidate
+    from widgets.panel import Panel
+
+
+class Late(QObject):
+    """Panels at the machine, back-ups, commissioning; and the actions that open them."""
+
+    def __init__(self, studio: Studio, ports: Callable[[], list[Candidate]]) -> None:
+        super().__init__(studio)
+        self._studio, self._ports = studio, ports
+        self._parts: AtMachine | None = None
+        self.making = Pieces(self._make())
+
+    def _make(self) -> Iterator[None]:
+        from app.at_machine import AtMachine
+
+        self._parts = AtMachine(self._studio, self._ports)
+        yield
+        yield from self._parts.pieces()
+        yield
+        assert self.proof
+
+    def look(self) -> None:
+        """With each tick: the next piece; once all are there, what they have to look at."""
+        if not self.making.step():
+            return
+        studio = self._studio
+        self.proof.look(studio.follow.known)
+        made = "commissioning" in self.__dict__
+        if made or (studio.connection.controller.control and (studio.data / "commissioning").is_dir()):
+            self.commissioning.look()
+
+    def close(self) -> None:
+        """At the end; nothing more is made."""
+        if self.making.done:
+            self.at_machine.pads.close()
+        self.making.done = True
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """As far as they are made."""
+        return self._parts.panels if self._parts is not None else ()
+
+    @property
+    def at_machine(self) -> AtMachine:
+        """Jog, X-Y view, variables, events, operator terminal and the others: all of them."""
+        self.making.finish()
+        assert self._parts is not None
+        return self._parts
+
+    @cached_property
+    def proof(self) -> BackupPart:
+        """Compare, back-ups, handover."""
+        from app.backup_part import BackupPart
+
+        studio = self._studio
+        proof = BackupPart(
+            studio.connection, studio.run, studio.session, studio.desk.ask, studio.data, studio.tick, studio.program,
+            studio.window,
+        )  # fmt: skip
+        proof.comparing.show_step.connect(studio.program.reveal_step)
+        proof.backups.act.connect(lambda name: studio.actions[name].trigger())
+        proof.said.connect(studio.desk.say)
+        return proof
+
+    @cached_property
+    def commissioning(self) -> Commissioning:
+        """Bringing an axis to life; made when it is wanted, or when an interrupted step may have left something."""
+        from app.commissioning import Commissioning
+
+        studio = self._studio
+        made = Commissioning(
+            studio.connection, studio.session, studio.tick, studio.desk.ask, lambda: studio.follow.known, studio.data,
+            studio.window,
+        )  # fmt: skip
+        made.said.connect(studio.desk.say)
+        made.help_wanted.connect(studio.desk.show_help)
+        return made
+
+    # ---- actions
+
+    def bring(self, title: str) -> None:
+        """A panel that may have to be made first."""
+        self.making.finish()
+        self._studio.desk.bring(title)
+
+    def bring_scope(self) -> None:
+        """Curves want room."""
+        self.at_machine.scope.bring(self._studio.window.docks["Scope"])
+        self._studio.desk.bring("Scope")
+
+    def open_recording(self) -> None:
+        """Asks which one."""
+        self.bring("Recorder")
+        self.at_machine.recorded.ask_open()
+
+    def tune(self) -> None:
+        """The tuner needs room: in its layout, unless it has a window of its own."""
+        self.making.finish()
+        window = self._studio.window
+        dock = window.docks["Tuner"]
+        if not dock.isFloating() and window.centralWidget().isVisible():
+            self._studio.desk.arrange("Tune")
+        dock.bring()
+
+    def arrange(self, layout: str) -> None:
+        """A layout with panels that may have to be made first."""
+        self.making.finish()
+        self._studio.desk.arrange(layout)
