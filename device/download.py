@@ -14,7 +14,6 @@ from codegen.models import Model
 from device.asking import Waiting
 from device.door import LEAVE
 from device.identify import fence, read_once
-from device.proof import proved as proved
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, Stopped, Wait
 from device.transport import LineSettings
 from device.wire import Answer, Frame, Kind, Prompts, Shape, Upload, framed
