@@ -9,7 +9,7 @@ l.2252 for the dual loop: KP 0 and KI 0 while KD is maximised.
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,9 @@ import numpy as np
 
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
+from device.tuning.design import COARSE, LOUD
 from device.tuning.entry import gains_words
+from device.tuning.excite import kick
 from device.tuning.metrics import Metrics
 
 if TYPE_CHECKING:
@@ -35,6 +37,7 @@ FAILED = (
     "Ki=0, Kd=64."
 )  # ssc-tol-o-motion.txt l.2938
 KD_FACTOR, KP_FACTOR, KI_FACTOR = 1.6, 1.5, 2.0
+GENTLE = 64.0  # KD over the KP from which a dual loop gets stiffer; KD/4 is the most (l.885)
 LOWER = 0.6  # of what made it vibrate
 WANTED_OVERSHOOT = 0.12  # below it KP may go up
 WANTED_S = 0.04  # settled so soon, nothing more is tried
@@ -42,6 +45,8 @@ CALMER = 0.8  # of the overshoot so far: less is an improvement
 KI_OVERSHOOT = 0.3  # an integrator always overshoots a step; more than this is too much of it
 WORTH = 0.93  # of the settling time so far: less is an improvement
 NEAR_COUNTS = 1.0  # the position error that is "zero"
+TORQUE_PART = 0.12  # of the torque limit: a motor command that swings by more than this to either side vibrates
+COUNTS, MOST_PART = 2.0, 0.4  # or by more than so many counts of the encoder make, this part of the limit at most
 
 
 @dc.dataclass(frozen=True)
@@ -65,6 +70,11 @@ class Seen:
         if self.metrics is None or self.metrics.settling_time is None or self.vibrates:
             return float("inf")
         return self.metrics.settling_time
+
+    @property
+    def ms(self) -> float:
+        """The same in ms."""
+        return self.settled * 1000
 
     @property
     def overshoot(self) -> float:
@@ -94,12 +104,25 @@ def with_gains(gains: Gains, **values: float) -> Gains:
     return dc.replace(gains, **{name: grain(name, value) for name, value in values.items()})
 
 
-def vibrates(response: Response, torque_limit: float) -> bool:
-    """Whether error or torque goes on changing its sign at the end of the record (l.869: "reversing polarity")."""
+def vibrates(response: Response, gains: Gains, looks: Sequence[float] = ()) -> bool:
+    """Whether error or torque goes on changing its sign at the end of the record (l.869: "reversing polarity").
+
+    `looks`: the motor command as read after it, at odd moments. A loop at the end of its damping swings in four
+    samples to and fro; every 4th or 8th sample of that is always the same volt.
+    """
     error = response.commanded - response.actual
     step = float(np.ptp(response.commanded)) or 1.0
     late = len(error) - len(error) * 2 // 5
-    return _swings(error[late:], max(2.0, 0.05 * step)) or _swings(response.volts[late:], 0.12 * torque_limit)
+    counted = min(COUNTS * kick(gains), MOST_PART * gains.torque_limit)
+    volts, most = response.volts[late:], max(TORQUE_PART * gains.torque_limit, counted)
+    return _swings(error[late:], max(2.0, 0.05 * step)) or _swings(volts, most) or _unseen(volts, looks, most)
+
+
+def _unseen(volts: NDArray[np.float64], looks: Sequence[float], most: float) -> bool:
+    """The looks differ, and lie where the record never was."""
+    if not looks or max(looks) - min(looks) <= 2 * most:
+        return False
+    return max(looks) > float(volts.max()) + most or min(looks) < float(volts.min()) - most
 
 
 def _swings(values: NDArray[np.float64], least: float) -> bool:
@@ -135,15 +158,18 @@ def search(start: Gains, dual: bool = False) -> Search:
 
 
 def _most_damping(gains: Gains) -> Generator[Trial, Seen, Gains]:
-    """The dual loop: KD as large as it goes without vibration, KP and KI 0."""
+    """The dual loop: KD as large as it goes without vibration, KP and KI 0; and not so large that it is only heard."""
     best = gains
     while best.kd < float(COMMANDS["KD"].high or 0) / KD_FACTOR:
         more = with_gains(best, kd=best.kd * KD_FACTOR)
+        if kick(more) > LOUD * more.torque_limit:
+            break
         seen = yield Trial(more, f"Dual loop: KD up to {more.kd:g} while KP is 0.")
         if seen.vibrates:
+            best = with_gains(best, kd=best.kd * LOWER)
             break
         best = more
-    return with_gains(best, kd=best.kd * LOWER, kp=1.0)
+    return with_gains(best, kp=max(1.0, best.kd / GENTLE))
 
 
 @dc.dataclass
@@ -175,6 +201,9 @@ def _stiffer(best: Best) -> Generator[Trial, Seen, None]:
             best.words = f"KD {kd:g} is the most there is"
             return
         trial = with_gains(best.gains, kd=kd)
+        if kick(trial) > COARSE * trial.torque_limit:
+            best.words = f"with KD {kd:g} one count of the encoder would make {kick(trial):.1f} V"
+            return
         seen = yield Trial(trial, f"KD up to {kd:g}: more damping allows more stiffness.")
         if seen.vibrates:
             best.words = f"KD {kd:g} made it vibrate, so it stays at {best.gains.kd:g}"
@@ -211,12 +240,14 @@ def _integrator(best: Gains, seen: Seen, words: str) -> Search:
     for _ in range(8):
         trial = with_gains(best, ki=ki)
         after = yield Trial(trial, f"KI up to {trial.ki:g}: it takes away the position error that is left.")
-        if after.vibrates or after.overshoot > max(KI_OVERSHOOT, seen.overshoot + 0.15):
-            what = "made it vibrate" if after.vibrates else "overshot too far"
+        unsettled = after.settled == float("inf")
+        if unsettled or after.overshoot > max(KI_OVERSHOOT, seen.overshoot + 0.15):
+            what = "made it vibrate" if after.vibrates else "did not settle" if unsettled else "overshot too far"
             return Chosen(good, f"{_begin(told)}. KI {trial.ki:g} {what}, so it is {good.ki:g}.")
         good = trial
         if after.metrics is not None and abs(after.metrics.steady_error) <= NEAR_COUNTS:
-            return Chosen(good, f"{_begin(told)}. KI {good.ki:g} brings the position error to zero.")
+            zero = f"KI {good.ki:g} brings the position error to zero; with it, it settles within {after.ms:.0f} ms"
+            return Chosen(good, f"{_begin(told)}. {zero}.")
         ki *= KI_FACTOR
     return Chosen(good, f"{_begin(told)}. Some position error is left with KI {good.ki:g}.")
 

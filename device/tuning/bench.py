@@ -14,17 +14,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from device.backing_up import LINE_S, REFUSAL_S, exact
 from device.capture import Capture, Channel, Plan, most
 from device.capturing import CaptureJob, capture_steps
-from device.download import Job, proved
+from device.download import Job
 from device.former import Former, assign
 from device.lease import at
+from device.proof import proved
 from device.quiet import ready
 from device.tasks import LinkError, Steps, Wait
 from device.tuning.automatic import Chosen, Search, Seen, search, vibrates
-from device.tuning.excite import Excitation, NotIdentified, excitation
+from device.tuning.excite import Excitation, NotIdentified, excitation, held, refused
 from device.tuning.guards import Cancelled, Fault, Guard, not_stopped, watch
 from device.tuning.loop import Gains, period
 from device.tuning.metrics import Metrics, Response, measure
@@ -44,6 +46,9 @@ SETTLE_S = 0.15  # at rest with the new gains, before the step
 BEFORE = 6  # elements drawn before the step; the axis stands in them
 RECORDED_S = 5.0  # beyond the expected end of a recording
 QUIET_COUNTS = 3  # of swing at rest are no vibration
+LOOKS_S = (0.0, 0.0017, 0.0044, 0.0009, 0.0063, 0.0028, 0.0051)  # between two looks, beyond what the line takes
+RESTING = 6  # looks at an axis until it is at rest
+HEAVY = 0.2  # of the torque limit: what may hang on an axis that is without KP for a moment
 CHANNELS = ("error", "torque", "position")
 Told = Callable[["Measured", str], None]
 
@@ -144,6 +149,7 @@ class Bench:
     tm: float
     began: float
     trials: int = 0
+    looks: tuple[float, ...] = ()  # the motor command at odd moments after the last record, V
 
     @property
     def axis(self) -> str:
@@ -157,7 +163,7 @@ class Bench:
         capture = yield from self._captured(plan)
         response = self._response(capture, counts)
         metrics = measure(response, gains.torque_limit)
-        swings = vibrates(response, gains.torque_limit)
+        swings = vibrates(response, gains, self.looks)
         found = None if isinstance(metrics, str) else metrics
         words = metrics if isinstance(metrics, str) else measured_words(metrics, swings)
         return Measured(self.axis, counts, gains, response, found, swings, words, capture)
@@ -165,6 +171,8 @@ class Bench:
     def automatic(self, wish: Wish, tell: Told) -> Steps[Found]:
         """To and fro, with what `search` wants tried next."""
         trials: list[Measured] = []
+        if self.dual and (heavy := (yield from self._heavy())):
+            return Found(None, heavy, ())
         start = self.former_gains if self.former_gains.kd >= 1 else dc.replace(self.former_gains, kd=64.0, kp=6.0)
         searching: Search = search(start, self.dual)
         counts, seen = wish.step, None
@@ -187,10 +195,8 @@ class Bench:
         """Jumps to and fro within the travel while error and torque are recorded."""
         gains = dc.replace(self._with_limits(gains), fv=0.0, fa=0.0)
         sample = period(self.tm)
-        if self.dual:
-            return Excited(
-                NotIdentified("The axis works with a dual loop (DV 1): it can be tuned by hand only."), sample, gains
-            )
+        if wrong := refused(gains, self.dual):
+            return Excited(NotIdentified(wrong), sample, gains)
         several = min(3, self.model.recorded_channels)
         elements = min(EXCITED_VALUES, most(self.model, several))
         wanted = excitation(gains, abs(self.wish.step), elements, several, sample)
@@ -232,29 +238,77 @@ class Bench:
 
         return CaptureJob(progress)
 
+    def _heavy(self) -> Steps[str]:
+        """Whether so much hangs on the axis that it must not be without KP, in words."""
+        carried, _ = yield from self._held()
+        if abs(carried) <= HEAVY * self.former_gains.torque_limit:
+            return ""
+        yield from self._calm()
+        return (
+            f"Axis {self.axis} needs {abs(carried):.2f} V to stay where it is: weight hangs on it. A dual loop is "
+            "tuned from KP 0 upwards, and with that it would sink. Tune it by hand, with the KP it has."
+        )
+
+    def _held(self) -> Steps[tuple[float, bool]]:
+        """Volts with which KP holds the axis, after KI has gone (what it had integrated may stay); whether it rests."""
+        yield from assign(self.c, self.axis, {"KI": 0})
+        yield Wait(SETTLE_S)
+        for _ in range(RESTING):
+            errors = yield from self._errors()
+            rests = max(errors) - min(errors) <= QUIET_COUNTS
+            if rests:
+                break
+        return held(self.former_gains) * sum(errors) / len(errors), rests
+
     def _jog(self, gains: Gains) -> Steps[None]:
-        """A jog at speed 0 with these gains, at rest for a moment."""
+        """A jog at speed 0 with these gains, at rest for a moment; without KP, OF holds what KP held before."""
         self._check()
-        yield from assign(self.c, self.axis, registers(gains))
+        values = registers(gains)
+        if not gains.kp and self.former_gains.kp:
+            carried, rests = yield from self._held()
+            carried = carried if rests else 0.0  # of a load that floats in its backlash nothing can be told
+            values["OF"] = COMMANDS["OF"].stored(self.former.values["OF"] + scaled(carried))
+        yield from assign(self.c, self.axis, values)
         for line in (f"JG{self.axis}=0", f"BG {self.axis}"):
             answer = yield from proved(self.c.nonces, line, LINE_S, REFUSAL_S)
             if answer.kind is not Kind.ACCEPTED:
+                yield from watch(self.c, self.axis)
                 raise LinkError(f"The step could not begin: “{line}” was not accepted.")
         yield Wait(SETTLE_S)
-        yield from self._stands()
+        yield from self._stands(gains.kp)
 
-    def _stands(self) -> Steps[None]:
+    def _stands(self, kp: float) -> Steps[None]:
         """The motor is on and the axis does not swing already."""
-        places: list[int] = []
+        places = yield from self._errors()
+        if max(places) - min(places) <= max(QUIET_COUNTS, abs(self.wish.step) // 4):
+            return
+        seen = f"(TE between {min(places)} and {max(places)} counts)"
+        if not kp:
+            raise Fault(
+                f"Axis {self.axis} does not stay where it is with KP 0 {seen}: weight, or more backlash than a dual "
+                "loop can hold. The former gains are back: tune it by hand."
+            )
+        raise Fault(
+            f"Axis {self.axis} swings at rest with these gains {seen}. The former gains are back: take less KP or KI."
+        )
+
+    def _errors(self) -> Steps[list[int]]:
+        """The position error at some moments, counts; Fault where the motor went off."""
+        found: list[int] = []
         for _ in range(4):
             yield from watch(self.c, self.axis)
             told = yield from exact(self.c.nonces, [f"_TE{self.axis}"], self.model.columns)
-            places.append((told[0] or 0) // ONE)
-        if max(places) - min(places) > max(QUIET_COUNTS, abs(self.wish.step) // 4):
-            raise Fault(
-                f"Axis {self.axis} swings at rest with these gains (TE between {min(places)} and {max(places)} "
-                "counts). The former gains are back: take less KP or KI."
-            )
+            found.append((told[0] or 0) // ONE)
+        return found
+
+    def _look(self) -> Steps[None]:
+        """The motor command at odd moments, which no regular record can hide a swing from."""
+        found: list[float] = []
+        for wait in LOOKS_S:
+            told = yield from exact(self.c.nonces, [f"_TT{self.axis}"], self.model.columns)
+            found.append((told[0] or 0) / ONE)
+            yield Wait(wait)
+        self.looks = tuple(found)
 
     def _plan(self, seconds: float, values: int, go: str) -> Plan:
         sample = period(self.tm)
@@ -280,13 +334,15 @@ class Bench:
                 if self.c.clock() > end + RECORDED_S:
                     raise LinkError("The recording did not come to its end.")
                 yield Wait(0.02)
+            if wanted is None:
+                yield from self._look()
             yield from self._calm()
 
         return during
 
     def _calm(self) -> Steps[None]:
         yield from watch(self.c, self.axis)
-        yield from assign(self.c, self.axis, {name: self.former.values[name] for name in FIELDS})
+        yield from assign(self.c, self.axis, {name: self.former.values[name] for name in (*FIELDS, "OF")})
         yield from proved(self.c.nonces, f"ST {self.axis}", LINE_S, REFUSAL_S)
 
     def _response(self, capture: Capture, counts: int) -> Response:

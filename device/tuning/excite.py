@@ -46,6 +46,18 @@ class NotIdentified:
     reason: str
 
 
+def refused(gains: Gains, dual: bool) -> str:
+    """Why an axis can not be excited to be identified, or nothing."""
+    if dual:
+        return (
+            "An axis that works with a dual loop (DV 1) can not be identified: its damping comes from the other "
+            "encoder. Tune it automatically or by hand."
+        )
+    if gains.kd < LEAST_KD:
+        return f"KD is {gains.kd:g}: to identify the axis it has to be {LEAST_KD:g} or more. Raise KD first."
+    return ""
+
+
 def kick(gains: Gains) -> float:
     """Volts that one count of error makes in the sample in which it appears."""
     return VOLTS * (4.0 * gains.kp + 4.0 * gains.kd)
@@ -66,8 +78,8 @@ def excitation(
     spacing: float = 0.03,
 ) -> Excitation | NotIdentified:
     """Jumps between three places, at times that repeat in no rhythm; the torque stays well below its limit."""
-    if gains.kd < LEAST_KD:
-        return NotIdentified(f"KD is {gains.kd:g}: the excitation needs KD {LEAST_KD:g} or more. Set KD and try again.")
+    if wrong := refused(gains, False):
+        return NotIdentified(wrong)
     largest = min(KICK_PART * gains.torque_limit / kick(gains), HELD_PART * gains.torque_limit / held(gains))
     size = min(travel // 2, math.floor(largest / 2.0))
     if size < SMALLEST:
