@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from codegen.fields import Dimension
+from codegen.instructions.path_parts import LONGEST_ARC
 from codegen.numbers import parse_number, shown
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
@@ -179,9 +180,7 @@ def line(increments: Mapping[str, int], speed: int, acceleration: int, decelerat
 
 def arc(axes: str, radius: int, start: float, sweep: float, speed: int, acceleration: int, deceleration: int) -> Plan:
     """An arc of two axes from angle `start` on over `sweep` degrees (VM, CR); the circle's place follows from both."""
-    problem = "" if radius > 0 and sweep else "An arc needs a radius above 0 and a sweep angle that is not 0."
-    if len(axes) != 2:
-        problem = "An arc needs two axes."
+    problem = _arc_problem(axes, radius, sweep)
     first, second = axes[:1], axes[1:2]
     ends = _arc_at(radius, start, start + sweep)
     swing = _arc_swing(radius, start, sweep)
@@ -255,6 +254,20 @@ def _speed_problem(speed: int, acceleration: int, deceleration: int) -> str:
         return "The speed is 0; write one above 0."
     if acceleration < 1024 or deceleration < 1024:
         return "Acceleration and deceleration must be at least 1024 counts/s²."
+    return ""
+
+
+def _arc_problem(axes: str, radius: int, sweep: float) -> str:
+    """Why the controller would not take it (commands.md 7, CR)."""
+    if len(axes) != 2:
+        return "An arc needs two axes."
+    if radius <= 0 or not float(_degrees(sweep)):
+        return "An arc needs a radius above 0 and a sweep angle that is not 0."
+    least, most = (round(each or 0) for each in (COMMANDS["CR"].fields[0].low, COMMANDS["CR"].fields[0].high))
+    if not least <= radius <= most:
+        return f"The radius would be {radius} counts; the controller takes {least} to {most}."
+    if radius * abs(sweep) > LONGEST_ARC:
+        return "The arc is too long for the controller: make the radius or the sweep angle smaller."
     return ""
 
 

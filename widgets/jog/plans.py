@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -53,14 +54,16 @@ def by(item: OneAxis, setup: Setup, sign: int) -> jog.Plan:
     """One increment, forward or back."""
     counts = sign * setup.counts(Dimension.DISTANCE, item.axis, _number(item.distance))
     pace = pace_of(item, setup)
-    return jog.by(item.axis, counts, pace.speed, pace.acceleration, pace.deceleration)
+    plan = jog.by(item.axis, counts, pace.speed, pace.acceleration, pace.deceleration)
+    return dc.replace(plan, title=f"Move {item.axis} by {jog.told(counts, item.axis, setup)}")
 
 
 def to(item: OneAxis, setup: Setup) -> jog.Plan:
     """To the place in the field."""
     pace = pace_of(item, setup)
     place = setup.counts(Dimension.POSITION, item.axis, _number(item.place))
-    return jog.to(item.axis, place, pace.speed, pace.acceleration, pace.deceleration)
+    plan = jog.to(item.axis, place, pace.speed, pace.acceleration, pace.deceleration)
+    return dc.replace(plan, title=f"Move {item.axis} to {jog.told(place, item.axis, setup)}")
 
 
 def home(item: OneAxis, setup: Setup, routine: jog.Routine) -> jog.Plan:
