@@ -19,7 +19,7 @@ from app.tick import Tick
 from device.api import Controller, Kind
 from device.recorder import MOST_BYTES, SUFFIX, Recorder
 from device.recorder_play import CONTROLLER, DID, LISTING, NOTICE, Player, facts_of, replayed
-from device.recorder_read import Recording, RecordingUnreadable, joined, open_recording
+from device.recorder_read import DAMAGE, Recording, RecordingUnreadable, joined, open_recording
 from widgets.panel import Panel
 from widgets.parts.files import ask_open, ask_save
 from widgets.recorder.panel import Happening, RecorderPanel
@@ -70,6 +70,7 @@ class Recorded(QObject):
         self._working: threading.Thread | None = None
         self._found: Callable[[], None] = lambda: None
         self._ticks = 0
+        self._problem = ""
         self._join(studio.tick)
 
     # ------------------------------------------------------------ with each tick
@@ -81,6 +82,9 @@ class Recorded(QObject):
             self._found()
         self._note_controller(self._connection.controller)
         self._deeds.look()
+        if self._recorder.problem != self._problem:  # said once, wherever the person looks
+            self._problem = self._recorder.problem
+            self.said.emit(self._problem or "The recorder records again.")
         if self._panel.isVisible():
             self._show()
         self._ticks += 1
@@ -262,5 +266,5 @@ def _program_in(path: Path) -> str:
     try:
         with zipfile.ZipFile(path) as bundle:
             return bundle.read("program.tlp").decode("utf-8")
-    except (KeyError, OSError, ValueError, zipfile.BadZipFile):
+    except (KeyError, OSError, ValueError, *DAMAGE):
         return ""

@@ -132,8 +132,23 @@ class Recorder:
             self._written += len(data)
             self.problem = ""
         except OSError as reason:
-            self._path = None
+            self._take_back()
             self.problem = f"Nothing is recorded: {reason.strerror or reason} ({self.folder})."
+
+    def _take_back(self) -> None:
+        """A block that is not whole goes from the file, so that a full disk is not filled with pieces of files."""
+        path, self._path = self._path, None
+        self._packer.afresh()
+        if path is None:
+            return
+        try:
+            if self._written:
+                os.truncate(path, self._written)
+                self._path = path
+            else:
+                path.unlink(missing_ok=True)
+        except OSError:
+            return  # the folder is gone: the next try makes it, and another file
 
     def _record(self, queued: Queued) -> Record:
         at, what, channel, data = queued
@@ -144,7 +159,10 @@ class Recorder:
         self.folder.mkdir(parents=True, exist_ok=True)
         kept = 0
         for path in reversed(self.files()):
-            facts = path.stat()
+            try:
+                facts = path.stat()
+            except FileNotFoundError:  # another studio has taken it away
+                continue
             kept += facts.st_size
             if kept > self._most_bytes - FILE_BYTES or facts.st_mtime < self._wall() - self._most_s:
                 path.unlink(missing_ok=True)

@@ -19,6 +19,7 @@ QUIET_S = 30.0  # a longer time without anything is left out
 GAP_S = 1.0  # what is left of it
 IN_BUNDLE = "recording.tape"
 MOST_READ = 500_000_000  # bytes
+DAMAGE = (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError)  # of a bundle
 
 
 class RecordingUnreadable(Exception):
@@ -142,10 +143,12 @@ def joined(files: Sequence[Path]) -> bytes:
 def open_recording(path: Path) -> Recording:
     """A recording, or the one in a service bundle; raises RecordingUnreadable."""
     try:
+        if path.stat().st_size > MOST_READ:
+            raise RecordingUnreadable(f"{path.name} is larger than any recording this program writes.")
         data = _bundled(path) if zipfile.is_zipfile(path) else path.read_bytes()
     except OSError as reason:
         raise RecordingUnreadable(f"{path.name} can not be opened: {reason.strerror or reason}.") from reason
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError) as reason:
+    except DAMAGE as reason:
         raise RecordingUnreadable(f"{path.name} is a damaged bundle; ask for it again.") from reason
     recording = Recording(data, path.name)
     if not recording.length and not recording.notes:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLineEdit, QMenu, QPushButton
 
 from app.deeds import LISTEN_TICKS
 from device.api import Kind, State, StopState
@@ -187,6 +187,66 @@ def test_what_is_done_is_noted_in_words(stage: Stage) -> None:
     assert "Terminal: TP" in found and "Layout: Run" in found and "Events: Search events = limit" in found
     assert any(each.startswith("Program: ") for each in found)
     assert any(each.endswith("The first") for each in found), found
+
+
+def test_fields_cells_menus_pages_and_hands_are_noted_too(stage: Stage) -> None:
+    studio = stage.studio
+    stage.connect("simulator", "ssc2")
+    stage.type("SH")
+    studio.desk.bring("Scope")
+    stage.go(3)
+    body = studio.at_machine.curves.body
+    assert body is not None
+    stage.go(LISTEN_TICKS * len(studio.panels))
+    body.choices.count.setFocus()
+    QTest.keyClick(body.choices.count, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+    QTest.keyClicks(body.choices.count, "140\t")
+    QTest.mouseClick(body.side.tabBar(), LEFT, pos=body.side.tabBar().tabRect(1).center())
+    QTest.mouseClick(body.choices.slots[0].pen, LEFT)
+    menu = next(each for each in body.findChildren(QMenu) if each.isVisible())
+    stage.go(LISTEN_TICKS)
+    QTest.keyClick(menu, Qt.Key.Key_Down)
+    QTest.keyClick(menu, Qt.Key.Key_Down)
+    QTest.keyClick(menu, Qt.Key.Key_Return)
+    table = studio.at_machine.table
+    studio.desk.bring("Teach")
+    stage.go(3)
+    assert table.parts is not None
+    table.rows_wanted.emit("insert", [], [])
+    stage.go(LISTEN_TICKS * len(studio.panels))
+    table.parts.view.setFocus()
+    table.parts.view.go_to(0, 5)
+    QTest.keyClick(table.parts.view, Qt.Key.Key_Return)
+    editor = next(each for each in table.parts.view.findChildren(QLineEdit) if each.isVisible())
+    editor.selectAll()
+    QTest.keyClicks(editor, "-3")
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    motion = stage.controller.motion
+    motion.hold("X", 500, 10_000, 10_000, owner="test")
+    stage.go(2)
+    motion.release("test")
+    stage.until(lambda: not motion.busy)
+    stage.go(2)
+    found = done(stage)
+    for wanted in ("Scope: Values a channel = 140", "Menu: Blue", "Teach: Teach table, row 1, Wait input - = -3"):
+        assert wanted in found, found
+    assert any(each.endswith(" = Captures") for each in found), found
+    assert "By hand: axis X" in found and found.index("By hand: let go") > found.index("By hand: axis X")
+
+
+def test_a_recorder_that_can_not_write_is_said_wherever_one_looks(stage: Stage) -> None:
+    said: list[str] = []
+    recorded_by = stage.studio.at_machine.recorded
+    recorded_by.said.connect(said.append)
+    recorder = stage.studio.recorder
+    recorder.flush()
+    recorder.problem = "Nothing is recorded: no space left on device (here)."
+    stage.go(3)
+    assert said == [recorder.problem]
+    recorder.note(DID, "a line")
+    recorder.flush()
+    stage.go(3)
+    assert said[1:] == ["The recorder records again."]
 
 
 @pytest.fixture

@@ -118,6 +118,34 @@ def test_a_folder_that_takes_nothing_is_said_and_nothing_stops(tmp_path: Path) -
     assert recorder.problem.startswith("Nothing is recorded: ") and str(place) in recorder.problem
 
 
+@pytest.mark.skipif(os.name != "posix", reason="a limit of the system takes the place of a full disk")
+def test_a_full_disk_leaves_whole_files_and_no_heap_of_empty_ones(tmp_path: Path) -> None:
+    """Tried twice a second for as long as it is full; goes on by itself when there is room again."""
+    import resource
+
+    recorder = Recorder(tmp_path, threaded=False)
+    blocks = [os.urandom(30_000) for _ in range(3)]
+    recorder.add(What.RECEIVED, 1, blocks[0])
+    recorder.flush()
+    whole = recorder.files()[0].stat().st_size
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (whole + 10_000, hard))  # the next block gets in by a third
+    try:
+        for _ in range(5):
+            recorder.add(What.RECEIVED, 1, blocks[1])
+            recorder.flush()
+        said = recorder.problem
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert said.startswith("Nothing is recorded: ")
+    assert [path.stat().st_size for path in recorder.files()] == [whole]
+    recorder.add(What.RECEIVED, 1, blocks[2])
+    recorder.flush()
+    recording = Recording(joined(recorder.files()))
+    assert not recorder.problem and not recording.problem
+    assert [each.record.data for each in recording.records()] == [blocks[0], blocks[2]]
+
+
 LIFE = """
 import sys, time
 from pathlib import Path
