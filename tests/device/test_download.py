@@ -295,30 +295,6 @@ def test_the_badge_tells_how_program_and_document_stand() -> None:
     assert controller.program_badge is Badge.UNKNOWN
 
 
-def test_a_program_is_burned() -> None:
-    """It is there again after the power was off (dmc-1412-1414.txt l.2963)."""
-    bench = Bench("ssc4").ready()
-    bench.result(bench.controller.download("#A\nPR 7\nEN").future)
-    assert bench.result(bench.controller.burn_program()).accepted
-    bench.simulation.stimulus("reset", 0)
-    bench.simulation.stimulus("reset", 1)
-    bench.run(4.0)
-    assert bench.result(bench.controller.upload().future).rstrip("\n") == "#A\nPR 7\nEN"
-
-
-def test_a_cable_pulled_while_burning() -> None:
-    bench = Bench("ssc4").ready()
-    bench.result(bench.controller.download(PROGRAM).future)
-    future = bench.controller.burn_program()
-    bench.run(0.5)
-    bench.loopback.unplugged = True
-    with pytest.raises(LinkError, match="No answer"):
-        bench.result(future)
-    bench.loopback.unplugged = False
-    bench.run_until(lambda: bench.controller.state is State.READY, 30.0)
-    assert bench.ask("TPX") == " 0000000000"
-
-
 @pytest.mark.parametrize("lost", [3, 30, 400, 1200])
 def test_a_lost_character_is_found_and_the_lines_are_sent_again_slower(lost: int) -> None:
     """Without handshake a character may be overrun (dmc-1412-1414.txt l.1278)."""
@@ -388,27 +364,3 @@ def test_whatever_happens_to_dl_no_line_of_the_program_is_carried_out(change: by
         assert bench.still(), place
         assert job.future.result().verified, place
         assert bench.simulation.unit.state.program == ("JG 5000;BG X", "EN"), place
-
-
-def test_a_controller_switched_off_while_burning_is_no_success() -> None:
-    bench = Bench("ssc4").ready()
-    bench.result(bench.controller.download(PROGRAM).future)
-    future = bench.controller.burn_program()
-    bench.run(0.3)
-    bench.simulation.stimulus("reset", 0)
-    bench.simulation.stimulus("reset", 1)
-    with pytest.raises(LinkError) as failure:
-        bench.result(future)
-    assert "\n" not in str(failure.value)
-    works_again(bench)
-
-
-def test_garbage_while_burning_is_no_refusal() -> None:
-    """Some `?` on the line are not the answer; the proof behind the command is."""
-    bench = Bench("ssc4").ready()
-    bench.result(bench.controller.download(PROGRAM).future)
-    transmit, noise = bench.simulation.transmit, [b"\xf7?\x81:"]
-    future = bench.controller.burn_program()
-    bench.run(0.3)
-    bench.simulation.transmit = lambda port: (noise.pop() if noise else b"") + transmit(port)  # type: ignore[method-assign]
-    assert bench.result(future, 40.0).accepted
