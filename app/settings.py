@@ -69,6 +69,8 @@ ROWS = (
     Row("folded", dict, {}, "Folded", "What is folded in the programs opened last, by file."),
     Row("jog_speeds", dict, {}, "Jog speeds", "Slow, medium and fast of every axis, by its unit, for moving by hand."),
     Row("tuner", dict, {}, "Tuner", "Axis, page, view, record, steps and targets of the tuner; no gains."),
+    Row("scope", dict, {}, "Scope", "Channels, colours, interval, start and view that were chosen last in the scope."),
+    Row("teach", dict, {}, "Teach", "What was chosen last for teaching, speeds by the units of the axes."),
     Row("layout", str, "Program", "Layout", "Arrangement of the panels.", ("Program", "Run", "Tune", "Own")),
     Row("window", dict, {}, "Window", "Place, size and arrangement of the panels."),
     Row("look_at_start", bool, True, "Look for a controller at start",

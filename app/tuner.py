@@ -18,6 +18,7 @@ from app.run import Ask, Run
 from app.session import Session
 from app.tick import Tick, failure_of
 from app.tuner_book import Book
+from app.tuner_memory import Memory
 from app.tuner_model import Modelling
 from codegen.fields import Dimension
 from device.api import Controller, Kind, State
@@ -49,6 +50,7 @@ class Tuner(QObject):
         tick: Tick,
         panel: TunerPanel,
         book: Book,
+        memory: Memory,
         ask: Ask,
         careful: Callable[[str, Callable[[], object]], None],
         folder: Path,
@@ -58,7 +60,7 @@ class Tuner(QObject):
         super().__init__(parent)
         self._connection, self._session, self._run, self._tick = connection, session, run, tick
         self._panel, self._ask, self._careful, self._now = panel, ask, careful, now
-        self.folder, self._book = folder, book
+        self.folder, self._book, self._memory = folder, book, memory
         self.job: Job[Any] | None = None
         self._present: Present | None = None
         self._drawn: list[Curve] = []
@@ -66,7 +68,7 @@ class Tuner(QObject):
         self._shown_trials = 0
         self._reading = False
         self._since = -math.inf  # what was read before this moment is from before a run
-        self.model = Modelling(tick, panel, self._excite, self._show_running, self._ended, self)
+        self.model = Modelling(tick, panel, self._excite, self._show_running, self._ended, memory, self)
         panel.judge = self.judge
         panel.axis_chosen.connect(self._axis_chosen)
         panel.start_wanted.connect(self._start)
@@ -75,7 +77,7 @@ class Tuner(QObject):
         panel.burn_wanted.connect(self._burn)
         panel.zero_wanted.connect(self._zero)
         panel.predicted_wanted.connect(self._run_predicted)
-        panel.page_opened.connect(lambda _page: self._join_pages())
+        panel.page_opened.connect(lambda _page: self._opened())
         connection.changed.connect(lambda _controller: self._another())
         self._joined = False
 
@@ -90,8 +92,9 @@ class Tuner(QObject):
     def judge(self, asked: Asked) -> Judged:
         """Where the axis will go, in its unit, and what ends it; or why it can not."""
         wish = self.wish(asked)
-        if wish.problem:
-            return Judged("", f"{wish.problem[:1].upper()}{wish.problem[1:]}")
+        wrong = wish.problem or self._not_excited(asked)
+        if wrong:
+            return Judged("", f"{wrong[:1].upper()}{wrong[1:]}")
         setup = self._session.document.working_setup
         axis, guard = setup.axis(asked.axis), wish.guard
         row, key = self._connection.controller.last(), f"commanded.{asked.axis.lower()}"
@@ -106,6 +109,17 @@ class Tuner(QObject):
             f"{asked.axis} moves by {shown(asked.step, axis)} {unit_of(axis)} and back, and stays between "
             f"{self._between(low, high, asked.axis)}; beyond {guard.error} counts of error its motor goes off."
         )
+
+    def _not_excited(self, asked: Asked) -> str:
+        """Why what this page begins with, an excitation, is refused; or nothing."""
+        from device.tuning.excite import refused
+
+        page, dual = self._panel.page, self._present is not None and self._present.dual
+        if page == MODEL:
+            return refused(asked.gains, dual)
+        if page == AUTOMATIC and asked.drive == UNSURE and refused(asked.gains, dual):
+            return f"Choose the drive mode; it can not be found out here. {refused(asked.gains, dual)}"
+        return ""
 
     def _between(self, low: float, high: float, letter: str) -> str:
         axis = self._session.document.working_setup.axis(letter)
@@ -325,6 +339,11 @@ class Tuner(QObject):
         self._join_pages()
         self.read_present(into_fields=True)
 
+    def _opened(self) -> None:
+        """A page, for the first time or again: DV may be another one by now."""
+        self._join_pages()
+        self.read_present()
+
     def _join_pages(self) -> None:
         """The panel's pages are made when it is first shown."""
         if self._joined:
@@ -332,6 +351,7 @@ class Tuner(QObject):
         self._joined = True
         self._panel.manual.present.clicked.connect(lambda: self.read_present(into_fields=True))
         self._book.join()
+        self._memory.join()
 
     def _another(self) -> None:
         """Another controller: what was known belongs to the one before."""
@@ -357,7 +377,7 @@ class Tuner(QObject):
             if failure_of(future) or controller is not self._connection.controller or axis != self._panel.axis:
                 return
             self._present = future.result()
-            self._panel.show_present(future.result().gains)
+            self._panel.show_present(future.result().gains, future.result().dual)
             if into_fields and typed == self._panel.manual.gains.texts:  # nobody has typed meanwhile
                 self._panel.manual.gains.show_gains(future.result().gains)
 

@@ -68,6 +68,11 @@ class Book(QObject):
             self._book = Logbook(file)
         return self._book
 
+    @property
+    def machine(self) -> str:
+        """What its runs are kept under."""
+        return self.book.file.name
+
     def refresh(self) -> None:
         """The runs of the machine that is connected now."""
         self._panel.logbook.show_entries(self.book.entries)

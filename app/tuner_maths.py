@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from device.tuning.bench import Excited
@@ -53,6 +53,21 @@ def proposed(
             wanted, None, margins(plant, shown, period), bode(plant, shown, period), None, found.reason + words
         )
     return _good(estimate, wanted, found, period, counts, seconds)
+
+
+def first_proposed(
+    estimate: Estimate, before: Target | None, period: float, keep: Gains, counts: int, seconds: float
+) -> Proposal:
+    """After an identification: the target of last time, where it can still be reached, else a sound one."""
+    if before is not None:
+        found = proposed(estimate, before, period, keep, counts, seconds)
+        if found.gains is not None:
+            return found
+    sound = proposed(estimate, None, period, keep, counts, seconds)
+    if before is None:
+        return sound
+    told = f"The target of last time, {before.crossover / HERTZ:.3g} Hz with {before.phase:.0f}°, can not be reached."
+    return replace(sound, words=f"{told} {sound.words}".strip())
 
 
 def _good(estimate: Estimate, wanted: Target, found: Design, period: float, counts: int, seconds: float) -> Proposal:

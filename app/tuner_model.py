@@ -13,19 +13,20 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from PySide6.QtCore import QObject
 
 from app.tick import Tick, failure_of
+from app.tuner_memory import Memory
 from widgets.tuner.asked import Asked
 from widgets.tuner.panel import TunerPanel
 
 if TYPE_CHECKING:
     from app.tuner_maths import Proposal
     from device.tuning.bench import Excited
-    from device.tuning.design import Target
     from device.tuning.excite import NotIdentified
     from device.tuning.identify import Estimate
     from widgets.tuner.plots import Curve
 
 T = TypeVar("T")
 LONGEST_S = 1.0  # of a predicted step
+UNREACHED = "There are no gains for this target; ask for one that can be reached."
 
 
 def in_background(call: Callable[[], T]) -> Future[T]:
@@ -46,20 +47,23 @@ class Modelling(QObject):
         excite: Callable[[Asked, Callable[[Excited], None]], None],
         running: Callable[[str], None],
         ended: Callable[[], None],
+        memory: Memory,
         parent: QObject,
     ) -> None:
         super().__init__(parent)
         self._tick, self._panel = tick, panel
-        self._excite, self._running, self._ended = excite, running, ended
+        self._excite, self._running, self._ended, self._memory = excite, running, ended, memory
         self.estimate: Estimate | None = None
         self.proposal: Proposal | None = None
         self._excited: Excited | None = None
         self._to_draw = False
+        self._designing = False
+        self._next: tuple[float, float] | None = None  # asked for while one was being worked out; the last counts
         panel.target_wanted.connect(self._design)
 
     def forget(self) -> None:
         """Another axis, another controller."""
-        self.estimate = self.proposal = self._excited = None
+        self.estimate = self.proposal = self._excited = self._next = None
         self._to_draw = False
         if self._panel.bode_plot is not None:
             self._panel.model.show_usable(False)
@@ -136,25 +140,37 @@ class Modelling(QObject):
     # ---- gains for a target
 
     def _design(self, crossover: float, phase: float) -> None:
-        if self.estimate is not None:
+        self._memory.keep_target(crossover, phase)
+        if self._designing:
+            self._next = (crossover, phase)
+        elif self.estimate is not None:
             self._propose((crossover, phase), self._panel.asked)
 
     def _propose(self, wanted: tuple[float, float] | None, asked: Asked) -> None:
         estimate, excited = self.estimate, self._excited
         assert estimate is not None and excited is not None
-        seconds = min(asked.seconds, LONGEST_S)
+        seconds, before = min(asked.seconds, LONGEST_S), self._memory.target
 
         def work() -> Proposal:
-            from app.tuner_maths import proposed
+            from app.tuner_maths import first_proposed, proposed
             from device.tuning.design import Target
 
-            target: Target | None = None if wanted is None else Target(*wanted)
-            return proposed(estimate, target, excited.period, excited.gains, asked.step, seconds)
+            then = (excited.period, excited.gains, asked.step, seconds)
+            if wanted is not None:
+                return proposed(estimate, Target(*wanted), *then)
+            return first_proposed(estimate, None if before is None else Target(*before), *then)
 
         def done(future: Future[Any]) -> None:
-            if estimate is self.estimate:
+            self._designing = False
+            if estimate is not self.estimate:
+                return
+            wanted, self._next = self._next, None
+            if wanted is not None:
+                self._design(*wanted)
+            else:
                 self._proposed(future)
 
+        self._designing = True
         self._tick.when_done(in_background(work), done)
 
     def _proposed(self, future: Future[Any]) -> None:
@@ -169,7 +185,7 @@ class Modelling(QObject):
             model.show_target(proposal.target.crossover, proposal.target.phase)
             bode_plot.show_target(proposal.target.crossover, proposal.target.phase)
         bode_plot.show_bode(proposal.bode, proposal.margins)
-        model.show_usable(True)
+        model.show_usable(True, "" if proposal.gains is not None else UNREACHED)
         model.show_design(proposal.gains, proposal.margins, proposal.words)
         if proposal.gains is not None:
             self._panel.manual.gains.show_gains(proposal.gains)

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject
 
 from app.tuner import Tuner
 from app.tuner_book import Book
+from app.tuner_memory import Memory
 from app.tuner_offer import Offer
 from widgets.tuner.panel import TunerPanel
 
@@ -28,9 +29,11 @@ class TunerPart(QObject):
         connection, session, tick, ask = studio.connection, studio.session, studio.tick, studio.desk.ask
         self.panel = TunerPanel()
         self.book = Book(connection, session, self.panel, folder, studio.window, now)
+        self.memory = Memory(studio.settings, session, self.panel, lambda: self.book.machine, self)
         self.tuner = Tuner(
-            connection, session, studio.run, tick, self.panel, self.book, ask, studio.right.careful, folder, self, now
-        )
+            connection, session, studio.run, tick, self.panel, self.book, self.memory, ask, studio.right.careful,
+            folder, self, now,
+        )  # fmt: skip
         self.offer = Offer(connection, tick, ask, folder, lambda: self.tuner.job is not None, self)
         for part in (self.book, self.tuner, self.offer):
             part.said.connect(studio.desk.say)

@@ -16,7 +16,7 @@ from device.tuning.metrics import Response
 from widgets.display.readings import unit_of
 from widgets.parts.units import scale_of
 from widgets.program.printing import make_pages
-from widgets.tuner.panel import metrics_words
+from widgets.tuner.results import metrics_words
 
 WIDTH, HEIGHT, SCALE = 600, 200, 3  # of a picture on the page in px, and how much finer it is drawn
 LEFT, RIGHT, TOP, BOTTOM = 64, 8, 10, 28

@@ -28,7 +28,10 @@ ELSEWHERE = {
     "window",
     "folded",
     "jog_speeds",
-}  # where a program was folded, with its file; speeds beside the axis in Jog
+    "scope",
+    "teach",
+    "tuner",
+}  # where a program was folded, with its file; speeds beside the axis in Jog; what the tuner shows in the tuner
 WAYS = pytest.mark.parametrize("way", [Mouse, Keys], ids=["mouse", "keyboard"])
 
 

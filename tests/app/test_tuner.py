@@ -87,7 +87,7 @@ def held(rig: Rig) -> dict[str, float]:
 def test_steps_by_mouse_and_keys_kept_in_the_logbook(stage: Stage, tmp_path: Path) -> None:
     panel = tuner(stage)
     assert panel.page == MANUAL and not panel.box.begin.isEnabled()  # nobody has looked yet
-    assert not panel.save.isEnabled()
+    assert not panel.results.save.isEnabled()
     kp = panel.manual.gains.fields["KP"]
     typed(kp, "10")
     QTest.keyClick(kp, Qt.Key.Key_Up)
@@ -99,7 +99,7 @@ def test_steps_by_mouse_and_keys_kept_in_the_logbook(stage: Stage, tmp_path: Pat
     assert panel.box.unit.text() == "in = 319 counts"  # 637 counts an inch; a half goes away from 0
     run(stage, panel)
     assert panel.result.text().startswith("Settled within")
-    assert "Rise" in panel.metrics.text() and "overshoot" in panel.metrics.text()
+    assert "Rise" in panel.results.metrics.text() and "overshoot" in panel.results.metrics.text()
     assert panel.step_plot is not None and panel.step_plot.names == ("KP 10, KI 0, KD 120",)
     assert held(stage.rig) == GAINS and not stage.rig.moving
     typed(kp, "12")
@@ -110,7 +110,7 @@ def test_steps_by_mouse_and_keys_kept_in_the_logbook(stage: Stage, tmp_path: Pat
 
 
 def _saved(stage: Stage, panel: TunerPanel, folder: Path) -> None:
-    click(panel.save)
+    click(panel.results.save)
     dialogs = [each for each in stage.studio.window.children() if isinstance(each, QFileDialog)]
     dialogs[-1].fileSelected.emit(str(folder / "step.csv"))
     dialogs[-1].close()

@@ -30,6 +30,10 @@ AUTOMATIC = (
     "Moves the axis to and fro by the step and raises KD and KP while it tests the response, then KI. It stops where "
     "the axis begins to vibrate. Only for drives in torque mode."
 )
+DUAL = (
+    "The axis works with a dual loop (DV 1): first KD is raised as far as it goes while KP and KI are 0, then KP, then "
+    "KI. An axis with weight on it would sink meanwhile: hold it otherwise, or tune it by hand."
+)
 IDENTIFY = "The axis has not been identified. It jumps to and fro within the step while error and torque are recorded."
 
 
@@ -71,14 +75,18 @@ class AutomaticPage(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.trials, self.result = QListWidget(), _words()
+        self.trials, self.about, self.result = QListWidget(), _words(AUTOMATIC), _words()
         self.trials.setAccessibleName("Trials")
         self.trials.setWordWrap(True)
         self.trials.setMinimumHeight(120)
         column = _column(self)
-        column.addWidget(_words(AUTOMATIC))
+        column.addWidget(self.about)
         column.addWidget(self.trials, 1)
         column.addWidget(self.result)
+
+    def show_loop(self, dual: bool) -> None:
+        """What will be done, with one encoder or two."""
+        set_text(self.about, f"{AUTOMATIC} {DUAL}" if dual else AUTOMATIC)
 
     def add_trial(self, why: str, gains: Gains, words: str) -> None:
         """One more, in sight."""
@@ -102,7 +110,6 @@ class ModelPage(QWidget):
         self.estimate, self.result, self.margins = _words(IDENTIFY), _words(), _words()
         self.crossover, self.phase = QLineEdit(), QLineEdit()
         self.apply, self.run = QPushButton("Design"), QPushButton("Run this step")
-        self.run.setToolTip("One step with the proposed gains, drawn over the predicted one")
         self.crossover.setAccessibleName("Crossover, Hz")
         self.phase.setAccessibleName("Phase margin, degrees")
         grid = QGridLayout()
@@ -123,14 +130,20 @@ class ModelPage(QWidget):
         column.addWidget(self.margins)
         column.addWidget(self.result)
         column.addStretch(1)
-        self.show_usable(False, "Identify the axis first.")
+        self.show_usable(False)
 
     def show_usable(self, designed: bool, reason: str = "") -> None:
-        """Whether there is an estimate to design for, and why the step can not be run."""
+        """Whether there is an estimate to design for, and why there are no gains to run."""
         for field in (self.crossover, self.phase, self.apply):
             field.setEnabled(designed)
-        self.run.setEnabled(designed and not reason)
-        self.run.setToolTip(reason or "One step with the proposed gains, drawn over the predicted one")
+        self._no_gains = reason if designed else "Identify the axis first."
+        self.show_runnable("")
+
+    def show_runnable(self, reason: str) -> None:
+        """Whether the step with the proposed gains can be run now."""
+        why = self._no_gains or reason
+        self.run.setEnabled(not why)
+        self.run.setToolTip(why or "One step with the proposed gains, drawn over the predicted one")
 
     def show_target(self, crossover: float, phase: float) -> None:
         """Where the handles stand."""

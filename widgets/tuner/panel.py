@@ -9,7 +9,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
-    QCheckBox,
     QComboBox,
     QFrame,
     QHBoxLayout,
@@ -27,6 +26,7 @@ from widgets.display.readings import unit_of
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.units import scale_of
 from widgets.tuner.asked import Asked, Judged
+from widgets.tuner.results import Results
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -34,8 +34,9 @@ if TYPE_CHECKING:
     from device.api import Controller, Row
     from device.tuning.loop import Gains
     from device.tuning.metrics import Metrics
+    from widgets.tuner.bode import BodePlot
     from widgets.tuner.pages import AutomaticPage, LogbookPage, ManualPage, ModelPage
-    from widgets.tuner.plots import BodePlot, Curve, StepPlot
+    from widgets.tuner.plots import Curve, StepPlot
     from widgets.tuner.step_box import StepBox
 
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to tune an axis."
@@ -70,19 +71,15 @@ class TunerPanel(Panel):
         self._made, self._making = False, self._make()
         self.judge: Callable[[Asked], Judged] = lambda asked: Judged("")
         self.running = ""  # what is under way, in words
-        self.empty, self.result, self.metrics = QLabel(OFFLINE), QLabel(), QLabel()
+        self.empty, self.result, self.results = QLabel(OFFLINE), QLabel(), Results()
         self.axes, self.pages = QComboBox(), QStackedWidget()
         self.buttons = [QPushButton(name) for name in PAGES]
         self.use, self.burn = QPushButton("Use these gains"), QPushButton("Save PID gains…")
-        self.save, self.zero = QPushButton("Save data…"), QPushButton("Zero position")
-        self.error = QCheckBox("Position error")
         self.manual: ManualPage
         self.automatic: AutomaticPage
         self.model: ModelPage
         self.logbook: LogbookPage
         self.box: StepBox
-        self.step_plot: StepPlot | None = None
-        self.bode_plot: BodePlot | None = None
         self._lay_out()
 
     # ---- what it shows
@@ -109,6 +106,14 @@ class TunerPanel(Panel):
         return self.pages.currentIndex()
 
     @property
+    def step_plot(self) -> StepPlot | None:
+        return self.results.step_plot
+
+    @property
+    def bode_plot(self) -> BodePlot | None:
+        return self.results.bode_plot
+
+    @property
     def reason(self) -> str:
         """Why nothing may be tuned now, or nothing."""
         return self.no_control(OFFLINE, WATCHED)
@@ -129,9 +134,10 @@ class TunerPanel(Panel):
         if self._made:
             self._show_usable()
 
-    def show_present(self, gains: Gains | None) -> None:
-        """What the controller holds; into the fields as well where an axis was just chosen."""
+    def show_present(self, gains: Gains | None, dual: bool = False) -> None:
+        """What the controller holds of the axis."""
         self.manual.gains.show_there(gains)
+        self.automatic.show_loop(dual)
 
     def show_result(self, sentence: str, good: bool = True) -> None:
         """How the last run ended, or what is under way."""
@@ -145,10 +151,7 @@ class TunerPanel(Panel):
 
     def show_curves(self, curves: Sequence[Curve], metrics: Metrics | None, torque_limit: float) -> None:
         """Responses over each other, the last one in front with its numbers."""
-        if self.step_plot is not None:
-            self.step_plot.show_curves(curves, torque_limit)
-        set_text(self.metrics, metrics_words(metrics))
-        self.save.setEnabled(bool(curves))
+        self.results.show_curves(curves, metrics, torque_limit)
 
     # ---- inside
 
@@ -165,8 +168,7 @@ class TunerPanel(Panel):
         self.axes.setEnabled(not running)
         step_problem = self.reason or self.running or judged.problem
         free = "" if self.box.free.isChecked() else "Look whether the way is free first."
-        self.model.run.setEnabled(self.model.apply.isEnabled() and not (step_problem or free))
-        self.model.run.setToolTip(step_problem or free or "One step with the proposed gains, drawn over the prediction")
+        self.model.show_runnable(step_problem or free)
 
     def _fit(self) -> None:
         """Axes and units of the machine that is connected; made when first shown."""
@@ -235,8 +237,9 @@ class TunerPanel(Panel):
         from widgets.parts.plot import Plot
 
         yield
+        from widgets.tuner.bode import BodePart, BodePlot
         from widgets.tuner.pages import AutomaticPage, LogbookPage, ManualPage, ModelPage
-        from widgets.tuner.plots import BodePlot, StepPlot
+        from widgets.tuner.plots import StepPlot
         from widgets.tuner.step_box import StepBox
 
         yield
@@ -251,18 +254,21 @@ class TunerPanel(Panel):
         self.box = StepBox()
         yield
         plots: list[Plot] = []
-        for name in ("Step response", "Motor command", "Bode plot, gain", "Bode plot, phase"):
+        for name in ("Step response", "Motor command"):
             plots.append(Plot(name))
             yield
-        step_plot = StepPlot(*plots[:2])
+        step_plot = StepPlot(*plots)
         yield
-        self.step_plot, self.bode_plot = step_plot, BodePlot(*plots[2:])
-        self.bode_plot.hide()
+        parts: list[BodePart] = []
+        for name in ("Bode plot, gain", "Bode plot, phase"):
+            parts.append(BodePart(name))
+            yield
+        self.results.take(step_plot, BodePlot(*parts))
         self._connect()
         yield
         self._arrange()
         yield
-        self._box_layout.addWidget(self._right(), 1)
+        self._box_layout.addWidget(self.results, 1)
         yield
         self._made = True
         self.open_page(MANUAL)
@@ -270,7 +276,7 @@ class TunerPanel(Panel):
     def _connect(self) -> None:
         from device.tuning.loop import FACTORY
 
-        assert self.step_plot is not None and self.bode_plot is not None
+        assert self.bode_plot is not None
         box, manual, model = self.box, self.manual, self.model
         self.axes.currentTextChanged.connect(lambda _text: self._axis_chosen())
         for edited in (box.edited, manual.gains.edited):
@@ -280,9 +286,8 @@ class TunerPanel(Panel):
         manual.defaults.clicked.connect(lambda: manual.gains.show_gains(FACTORY))
         self.use.clicked.connect(lambda: self.use_wanted.emit(self.axis, manual.gains.gains))
         self.burn.clicked.connect(lambda: self.burn_wanted.emit(self.axis, manual.gains.gains))
-        self.save.clicked.connect(self.save_wanted)
-        self.zero.clicked.connect(self.zero_wanted)
-        self.error.toggled.connect(self.step_plot.show_error)
+        self.results.save_wanted.connect(self.save_wanted)
+        self.results.zero_wanted.connect(self.zero_wanted)
         model.target_wanted.connect(self.target_wanted)
         self.bode_plot.target_wanted.connect(self.target_wanted)
         model.run_wanted.connect(lambda: self.predicted_wanted.emit(self.asked))
@@ -347,29 +352,6 @@ class TunerPanel(Panel):
         row.addStretch(1)
         return row
 
-    def _right(self) -> QWidget:
-        assert self.step_plot is not None and self.bode_plot is not None
-        right = QWidget()
-        column = QVBoxLayout(right)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(self.bode_plot, 1)
-        row = QHBoxLayout()
-        self.metrics.setWordWrap(True)
-        self.metrics.setAccessibleName("Measured")
-        self.metrics.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        row.addWidget(self.error)
-        row.addStretch(1)
-        self.zero.setToolTip("Clears the graph: the next step is drawn from 0 and alone. The axis keeps its position.")
-        self.save.setToolTip("The last response as a table (CSV) or for NumPy (npz)")
-        self.save.setEnabled(False)
-        row.addWidget(self.zero)
-        row.addWidget(self.save)
-        column.addLayout(row)
-        column.addWidget(self.step_plot, 1)
-        column.addWidget(self.metrics)
-        return right
-
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         if self._made:
@@ -386,16 +368,3 @@ class TunerPanel(Panel):
         self._side.setMaximumWidth(left + 24 if wide else 16_777_215)
         self._side.setMinimumWidth(left if wide else 0)
         self._side.setMinimumHeight(0 if wide else self.height() // 2)
-
-
-def metrics_words(metrics: Metrics | None) -> str:
-    """The numbers of a response in one line."""
-    if metrics is None:
-        return ""
-    rise = "–" if metrics.rise_time is None else f"{metrics.rise_time * 1000:.1f} ms"
-    settled = "did not settle" if metrics.settling_time is None else f"settled in {metrics.settling_time * 1000:.0f} ms"
-    torque = f", ▲ torque at its limit {metrics.saturated:.0%} of the time" if metrics.saturated > 0 else ""
-    return (
-        f"Rise {rise}, overshoot {metrics.overshoot:.0%}, {settled}, steady error {metrics.steady_error:.1f} counts, "
-        f"largest {metrics.peak_error:.0f}{torque}"
-    )

@@ -55,8 +55,11 @@ class StepBox(QWidget):
     def show_axis(self, setup: Setup, letter: str) -> None:
         """Another axis or another machine: a small step in its unit."""
         self._setup, self._axis = setup, letter
-        number = setup.from_counts(Dimension.DISTANCE, letter, USUAL_COUNTS)
-        self.step.setText(shown(number, 3))
+        self.show_step(shown(setup.from_counts(Dimension.DISTANCE, letter, USUAL_COUNTS), 3))
+
+    def show_step(self, text: str) -> None:
+        """Another step, in the axis' unit."""
+        self.step.setText(text)
         self._changed()
 
     @property

@@ -1,0 +1,208 @@
+"""The Bode plot of axis and loop, with two handles: crossover and phase margin, by mouse and by keys.
+
+Import it late: pyqtgraph takes longer to load than the first window may take to open.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pyqtgraph
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from device.tuning.loop import Bode, Margins
+from widgets.parts.look import look
+from widgets.parts.plot import Plot
+from widgets.tuner.plots import empty, stroke
+
+HERTZ = 2 * math.pi  # rad/s
+HERTZ_TICKS = [digit * 10.0**decade for decade in range(-2, 4) for digit in (1, 2, 5)]
+KEY_RATIO, KEY_DEGREES = 1.02, 1.0  # of one arrow key
+LEAST_PHASE, MOST_PHASE = 5.0, 85.0  # degrees that can be asked for
+GRIP = 13.0  # px of the grip on a handle
+
+
+class Handle(pyqtgraph.InfiniteLine):  # type: ignore[misc]
+    """A line to drag, with a grip and its value beside it."""
+
+    def __init__(self, upright: bool) -> None:
+        super().__init__(
+            angle=90 if upright else 0, movable=True, label=" ",
+            labelOpts={"position": 0.9 if upright else 0.06, "movable": False},
+        )  # fmt: skip
+        self.addMarker("o", 0.5, GRIP)
+        self.setCursor(Qt.CursorShape.SizeHorCursor if upright else Qt.CursorShape.SizeVerCursor)
+        self.dress()
+
+    def dress(self) -> None:
+        """In the colours of now."""
+        now = look()
+        self.setPen(stroke(now.colour("accent"), False, 1.6))
+        self.setHoverPen(stroke(now.colour("accent"), False, 3.0))
+        self.label.setColor(now.colour("surface"))
+        self.label.fill = pyqtgraph.mkBrush(now.colour("accent"))
+        self.label.setFont(now.small_font())
+        self.label.update()
+
+    def put(self, place: float) -> None:
+        """Where it stands from now on, without telling anybody."""
+        self.blockSignals(True)
+        self.setValue(place)
+        self.blockSignals(False)
+
+    def tell(self, words: str) -> None:
+        """What stands beside it."""
+        self.label.setFormat(words)
+        self.label.updatePosition()
+
+
+class BodePart(Plot):
+    """One of the two diagrams: Ctrl with arrows moves a handle, with Shift ten times as far."""
+
+    moved = Signal(int, int)  # steps of the crossover, steps of the margin
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        held, key = event.modifiers(), Qt.Key(event.key())
+        aside = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(key, 0)
+        up = {Qt.Key.Key_Down: -1, Qt.Key.Key_Up: 1}.get(key, 0)
+        if held & Qt.KeyboardModifier.ControlModifier and (aside or up):
+            far = 10 if held & Qt.KeyboardModifier.ShiftModifier else 1
+            self.moved.emit(aside * far, up * far)
+            return
+        super().keyPressEvent(event)
+
+
+class BodePlot(QWidget):
+    """Gain and phase of axis and loop; the upright line is the crossover, the level one the phase margin."""
+
+    target_wanted = Signal(float, float)  # crossover in rad/s, phase margin in degrees
+
+    def __init__(self, gain: BodePart, phase: BodePart, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.gain, self.phase = gain, phase
+        self._shown: tuple[Bode, Margins] | None = None
+        self._crossover, self._margin = 0.0, 0.0
+        self.crossover, self.below, self.margin = Handle(True), Handle(True), Handle(False)
+        self.below.label.setVisible(False)  # its value stands beside the upper one
+        for line, other in ((self.crossover, self.below), (self.below, self.crossover)):
+            line.sigPositionChanged.connect(lambda moved, other=other: self._along(moved, other))
+        self.margin.sigPositionChanged.connect(lambda _: self._tell())
+        for line in (self.crossover, self.below, self.margin):
+            line.sigPositionChangeFinished.connect(self._dragged)
+        self.margin.setBounds((LEAST_PHASE - 180.0, MOST_PHASE - 180.0))
+        self.phase.setXLink(self.gain)
+        for plot in (self.gain, self.phase):
+            plot.setLogMode(x=True, y=False)
+            plot.getAxis("bottom").setTicks([[(math.log10(each), f"{each:g}") for each in HERTZ_TICKS]])
+            plot.moved.connect(self._by_key)
+            plot.setAccessibleDescription(
+                "Ctrl with left and right moves the crossover, with up and down the phase margin; Shift: ten times."
+            )
+        self.gain.addLegend(offset=(-8, 8))
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.gain, 1)
+        column.addWidget(self.phase, 1)
+        self.draw()
+
+    def show_bode(self, bode: Bode | None, margins: Margins | None) -> None:
+        """Another loop, or none."""
+        self._shown = (bode, margins) if bode is not None and margins is not None else None
+        self.draw()
+
+    def show_target(self, crossover: float, phase: float) -> None:
+        """Where the handles stand: rad/s and degrees."""
+        self._crossover, self._margin = crossover, phase
+        for line in (self.crossover, self.below):
+            line.put(math.log10(max(crossover, 1e-6) / HERTZ))
+        self.margin.put(phase - 180.0)
+        self._tell()
+
+    @property
+    def _asked(self) -> tuple[float, float]:
+        """Where the handles stand now."""
+        return 10 ** float(self.crossover.value()) * HERTZ, float(self.margin.value()) + 180.0
+
+    def _tell(self) -> None:
+        crossover, phase = self._asked
+        self.crossover.tell(f"{crossover / HERTZ:.3g} Hz")
+        self.margin.tell(f"{phase:.0f}°")
+
+    def _along(self, moved: Handle, other: Handle) -> None:
+        """The crossover is one line in two diagrams."""
+        if other.value() != moved.value():
+            other.put(float(moved.value()))
+        self._tell()
+
+    # ---- drawn
+
+    def draw(self) -> None:
+        """Everything anew, in the colours of now."""
+        now = look()
+        empty(self.gain)
+        empty(self.phase)
+        self.gain.name_sides("", "Gain, dB")
+        self.phase.name_sides("Frequency, Hz", "Phase, °")
+        legend = self.gain.getPlotItem().legend
+        legend.clear()
+        legend.setLabelTextColor(now.colour("text"))
+        legend.setLabelTextSize(f"{now.fonts['small_points']:g}pt")
+        for line in (self.crossover, self.below, self.margin):
+            line.dress()
+        if self._shown is not None:
+            self._draw(*self._shown)
+
+    def _draw(self, bode: Bode, _: Margins) -> None:
+        now, seen = look(), self._seen(bode)
+        hertz = bode.frequency[seen] / HERTZ
+        for values, name, token, width in (
+            (bode.plant, "Axis", "quiet", 1.4),
+            (bode.loop, "Loop", "axis_x", 2.2),
+        ):
+            line = stroke(now.colour(token), False, width)
+            self.gain.plot(hertz, 20 * np.log10(np.abs(values[seen]) + 1e-12), pen=line, name=name)
+            self.phase.plot(hertz, _phase(values)[seen], pen=line)
+        for plot, level in ((self.gain, 0.0), (self.phase, -180.0)):
+            plot.addItem(pyqtgraph.InfiniteLine(pos=level, angle=0, pen=stroke(now.colour("border"), True, 1.0)))
+        for line in (self.crossover, self.below):
+            line.setBounds((math.log10(hertz[0]), math.log10(hertz[-1])))
+        self.gain.addItem(self.crossover)
+        for handle in (self.below, self.margin):
+            self.phase.addItem(handle)
+
+    def _seen(self, bode: Bode) -> slice:
+        """The part that matters: two decades around the crossover, up to where the sampling ends it."""
+        middle = self._crossover or float(bode.frequency[len(bode.frequency) // 2])
+        low, high = np.searchsorted(bode.frequency, (middle / 30.0, min(middle * 30.0, bode.frequency[-1] * 0.97)))
+        return slice(int(low), max(int(high), int(low) + 2))
+
+    # ---- moved by the person
+
+    def _dragged(self, *_: Any) -> None:
+        """Let go of a handle: the gains follow."""
+        if self._asked != (self._crossover, self._margin):
+            self._crossover, self._margin = self._asked
+            self.target_wanted.emit(self._crossover, self._margin)
+
+    def _by_key(self, aside: int, up: int) -> None:
+        if self._shown is None:
+            return
+        self.crossover.setValue(float(self.crossover.value()) + aside * math.log10(KEY_RATIO))
+        self.margin.setValue(float(self.margin.value()) + up * KEY_DEGREES)
+        self._dragged()
+
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "margin"):
+            self.draw()
+
+
+def _phase(values: np.ndarray) -> np.ndarray:
+    """Degrees, unrolled, beginning between -360 and 0."""
+    angle = np.degrees(np.unwrap(np.angle(values)))
+    return angle - 360.0 * math.ceil(float(angle[0]) / 360.0) if len(angle) else angle

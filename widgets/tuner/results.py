@@ -1,0 +1,81 @@
+"""What came of a run: the diagrams, the numbers below them, and what can be done with them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from widgets.panel import set_text
+
+if TYPE_CHECKING:
+    from device.tuning.metrics import Metrics
+    from widgets.tuner.bode import BodePlot
+    from widgets.tuner.plots import Curve, StepPlot
+
+
+class Results(QWidget):
+    """The Bode plot over the step; made without its plots, which take longest to load."""
+
+    error_chosen = Signal(bool)
+    zero_wanted = Signal()
+    save_wanted = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.error, self.metrics = QCheckBox("Position error"), QLabel()
+        self.save, self.zero = QPushButton("Save data…"), QPushButton("Zero position")
+        self.step_plot: StepPlot | None = None
+        self.bode_plot: BodePlot | None = None
+
+    def take(self, step_plot: StepPlot, bode_plot: BodePlot) -> None:
+        """The diagrams have been made."""
+        self.step_plot, self.bode_plot = step_plot, bode_plot
+        bode_plot.hide()
+        self.error.toggled.connect(step_plot.show_error)
+        self.error.toggled.connect(self.error_chosen)
+        self.zero.clicked.connect(self.zero_wanted)
+        self.save.clicked.connect(self.save_wanted)
+        self._lay_out(step_plot, bode_plot)
+
+    def show_curves(self, curves: Sequence[Curve], metrics: Metrics | None, torque_limit: float) -> None:
+        """Responses over each other, the last one in front with its numbers."""
+        if self.step_plot is not None:
+            self.step_plot.show_curves(curves, torque_limit)
+        set_text(self.metrics, metrics_words(metrics))
+        self.save.setEnabled(bool(curves))
+
+    def _lay_out(self, step_plot: StepPlot, bode_plot: BodePlot) -> None:
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(bode_plot, 1)
+        row = QHBoxLayout()
+        self.metrics.setWordWrap(True)
+        self.metrics.setAccessibleName("Measured")
+        self.metrics.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        row.addWidget(self.error)
+        row.addStretch(1)
+        self.zero.setToolTip("Clears the graph: the next step is drawn from 0 and alone. The axis keeps its position.")
+        self.save.setToolTip("The last response as a table (CSV) or for NumPy (npz)")
+        self.save.setEnabled(False)
+        row.addWidget(self.zero)
+        row.addWidget(self.save)
+        column.addLayout(row)
+        column.addWidget(step_plot, 1)
+        column.addWidget(self.metrics)
+
+
+def metrics_words(metrics: Metrics | None) -> str:
+    """The numbers of a response in one line."""
+    if metrics is None:
+        return ""
+    rise = "–" if metrics.rise_time is None else f"{metrics.rise_time * 1000:.1f} ms"
+    settled = "did not settle" if metrics.settling_time is None else f"settled in {metrics.settling_time * 1000:.0f} ms"
+    torque = f", ▲ torque at its limit {metrics.saturated:.0%} of the time" if metrics.saturated > 0 else ""
+    return (
+        f"Rise {rise}, overshoot {metrics.overshoot:.0%}, {settled}, steady error {metrics.steady_error:.1f} counts, "
+        f"largest {metrics.peak_error:.0f}{torque}"
+    )
