@@ -320,6 +320,8 @@ class Tuner(QObject):
             self.read_present()
 
     def _show_trials(self) -> None:
+        if self._shown_trials == len(self._trials):  # most ticks; what is imported below takes long to load
+            return
         from device.tuning.entry import gains_words
         from widgets.tuner.plots import Curve
 
