@@ -105,15 +105,16 @@ class OneAxisPage(QWidget):
 
     def show_ends(self, places: Places) -> None:
         """Where increments and Go would end from here, and which limit they pass."""
-        key = (self.item, places, self._setup)
+        key = (self.item, places, self._setup, self._letters)
         if key == self._told_for:
             return
         self._told_for = key
         plans_now = [] if self.problem else [plans.by(self.item, self._setup, sign) for sign in (-1, 1)]
         told = [ends_words(plan, places, self._setup) for plan in plans_now]
         words = [f"{arrow} {text}" for arrow, (text, _) in zip("◀▶", told, strict=False)]
-        set_text(self.ends, "\n".join(words))
-        show_role(self.ends, "problem" if any(passes for _, passes in told) else "quiet")
+        missing = plans.missing(self.item.axis, self._letters)
+        set_text(self.ends, missing or "\n".join(words))
+        show_role(self.ends, "problem" if missing or any(passes for _, passes in told) else "quiet")
         going = self.plan_there()
         there, passes = ends_words(going, places, self._setup) if going is not None else ("", False)
         set_text(self.there, there)
@@ -161,7 +162,8 @@ class OneAxisPage(QWidget):
         ):
             enable(button, wrong)
         enable(self.go, wrong or plans.problem_of(self.item, self._setup, NEEDS_PLACE))
-        for widget in (self.zero, self.latch, self.stop_run):
+        enable(self.zero, reason or plans.missing(self.item.axis, self._letters))
+        for widget in (self.latch, self.stop_run):
             enable(widget, reason)
         if self.latch.isChecked() != latched:
             self.latch.setChecked(latched)
@@ -173,7 +175,7 @@ class OneAxisPage(QWidget):
     @property
     def problem(self) -> str:
         """What is wrong with the fields, or nothing."""
-        return plans.problem_of(self.item, self._setup)
+        return plans.missing(self.item.axis, self._letters) or plans.problem_of(self.item, self._setup)
 
     @property
     def pace(self) -> Pace:

@@ -318,10 +318,7 @@ class JogPanel(Panel):
 
     def _show_setup(self, page: QWidget, setup: Setup, letters: str) -> None:
         self._letters = letters
-        if page in (self.line, self.arc):
-            page.show_setup(setup)  # type: ignore[attr-defined]
-        else:
-            page.show_setup(setup, letters)  # type: ignore[attr-defined]
+        page.show_setup(setup, letters)  # type: ignore[attr-defined]
         self._show_kept()
         if page is self.saved:
             self.saved.show_points(self._points)

@@ -41,6 +41,11 @@ def problem_of(item: Any, setup: Setup, needed: tuple[str, ...] = ()) -> str:
     return ""
 
 
+def missing(axes: str, letters: str) -> str:
+    """Which of the axes the connected controller has not, as a sentence, or nothing."""
+    return next((f"This controller has no axis {letter}." for letter in axes if letter not in letters), "")
+
+
 def pace_of(item: OneAxis, setup: Setup) -> Pace:
     """Of one axis; the fields have no problem."""
     return Pace(

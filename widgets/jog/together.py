@@ -15,6 +15,7 @@ from device.jog import Places, Plan
 from widgets.display.readings import unit_of
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
+from widgets.jog import plans
 from widgets.jog.ends import ends_words
 from widgets.jog.one_axis import enable
 from widgets.jog.speed import SpeedRow
@@ -41,7 +42,7 @@ class TogetherPage(QWidget):
         super().__init__(parent)
         self.item, self._fresh = item, item
         self._make, self._setup = make, setup
-        self._units = units_of(setup)
+        self._units, self._letters = units_of(setup), setup.letters
         self.plan: Plan | None = None
         self.form = FieldsForm(Offers(setup))
         self.form.edited.connect(self._edited)
@@ -56,9 +57,10 @@ class TogetherPage(QWidget):
         self.form.show_item(item)
         self._edited(item)
 
-    def show_setup(self, setup: Setup) -> None:
+    def show_setup(self, setup: Setup, letters: str) -> None:
         """Another machine."""
         before, self._setup, self._units = self._units, setup, units_of(setup)
+        self._letters = letters or setup.letters
         self.form.show_offers(Offers(setup))
         changed = [letter for letter in AXES if before[letter] != self._units[letter]]
         if changed and hasattr(self.item, "distances"):
@@ -108,7 +110,7 @@ class TogetherPage(QWidget):
             item = self._begun_anew(item)
             self.form.show_item(item)
         self.item = self.form.item = item
-        made = self._make(item, self._setup)
+        made = plans.missing(item.axes, self._letters) or self._make(item, self._setup)
         wrong = made if isinstance(made, str) else made.problem
         self.plan = None if isinstance(made, str) or made.problem else made
         set_text(self.words, wrong or ("; ".join(self.plan.commands) if self.plan is not None else ""))

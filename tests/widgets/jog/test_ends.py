@@ -32,6 +32,7 @@ def test_an_increment_shows_its_end_before_it_is_clicked(stage: Stage) -> None:
     stage.until(lambda: "11.000" in page.ends.text())
     assert page.ends.text() == "◀ Ends at X 9.000 mm.\n▶ Ends at X 11.000 mm."
     assert ghost(stage) != ghost(stage)  # nothing is looked at
+    QTest.mouseMove(page.form, QPoint(5, 5))  # wherever the hand was in the test before
     QTest.mouseMove(page.forward, QPoint(5, 5))
     stage.go(2)
     assert ghost(stage) == 11.0 and "stops at 11.000 mm" in page.ghost.text()
@@ -144,7 +145,7 @@ def _points(stage: Stage) -> None:
     assert not saved.save.isEnabled() and "name" in saved.save.toolTip()
     QTest.keyClicks(saved.name, "Load")
     QTest.mouseClick(saved.save, LEFT)
-    assert saved.table.item(0, 1).text() == "X 5 mm, Y -3 mm"
+    assert saved.table.item(0, 1).text() == "X 5.000 mm, Y -3.000 mm"  # a count is 0.001 mm
     stage.rig.type("DP 0,0")
     stage.until(lambda: saved._places.commanded == {"X": 0, "Y": 0})
     saved.table.setFocus()

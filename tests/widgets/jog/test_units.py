@@ -84,6 +84,21 @@ def test_two_axes_begin_anew_in_another_unit(stage: Stage, index: int) -> None:
         assert page.item.radius == "1"
 
 
+def test_an_axis_that_only_the_setup_has_can_not_be_moved(stage: Stage) -> None:
+    page, panel = ready(stage), stage.studio.at_machine.jog
+    stage.connect("simulator", "ssc1")  # the setup is for two axes
+    stage.go(5)
+    assert page.forward.isEnabled() and panel.axis == "X"
+    choose(page, "Y")
+    stage.go()
+    for button in (page.forward, page.hold_back, page.home, page.zero):
+        assert not button.isEnabled() and button.toolTip() == "This controller has no axis Y."
+    assert page.ends.text() == "This controller has no axis Y."
+    stage.connect("simulator", "ssc2")
+    stage.go(5)
+    assert page.forward.isEnabled() and panel.axis == "Y"
+
+
 @pytest.mark.parametrize("what", ["another machine", "STOP", "nothing"])
 def test_a_question_that_is_left_open_starts_nothing_later(stage: Stage, what: str) -> None:
     page = ready(stage)
