@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from device.jog import Plan
-from device.lease import CODE, COUNTS, FLAG, LOOK_S, Exchange, at, ended
+from device.lease import CODE, COUNTS, FLAG, LOOK_S, Exchange, at, ended, not_started
 from device.tasks import LinkError, Steps, Wait
 from device.wire import Kind, Shape
 
@@ -77,9 +77,9 @@ class Going:
     def _accepted(self, line: str) -> Steps[None]:
         answer = yield from self.exchange.prove(line)
         if answer.kind is not Kind.ACCEPTED:
-            why = yield from self.exchange.why()
+            code = yield from self.exchange.code()
             yield from self._put_back()
-            raise LinkError(f"{self.plan.title}: not started, “{line}” was refused: {why}.")
+            raise LinkError(f"{self.plan.title}: not started: {not_started(code)}")
 
     def _stop(self) -> Steps[bool]:
         answer = yield from self.exchange.prove(f"ST {self.axes}", stops=True)

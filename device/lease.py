@@ -132,6 +132,11 @@ def at(axis: str, value: object) -> str:
     return "," * "XYZW".index(axis) + str(value)
 
 
+def not_started(code: int) -> str:
+    """Why a start by hand was refused, and what to do."""
+    return f"error {code}, {ERROR_TEXTS.get(code, 'unknown error')}. {START_STEPS.get(code, 'Is the way free?')}"
+
+
 def ended(axis: str, code: int) -> str:
     """Why an axis stands, from its stop code, as one sentence."""
     return f"Axis {axis}: {STOP_TEXTS.get(code, f'stop code {code}')}."
@@ -262,10 +267,7 @@ class Lease:
         if answer.kind is not Kind.ACCEPTED:
             code = yield from self.exchange.code()
             yield from self._stop()
-            text = (
-                f"error {code}, {ERROR_TEXTS.get(code, 'unknown error')}. {START_STEPS.get(code, 'Is the way free?')}"
-            )
-            raise LinkError(f"Axis {self.axis} did not start: {text}")
+            raise LinkError(f"Axis {self.axis} did not start: {not_started(code)}")
 
     def _keep_ahead(self) -> Steps[str]:
         """Lengthens the move while held; ends with nothing, or with why the axis ended by itself."""

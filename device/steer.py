@@ -12,7 +12,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from codegen.twoletter.problems import ERROR_TEXTS
 from device.identify import read_once
 from device.lease import (
     AHEAD_S,
@@ -25,11 +24,11 @@ from device.lease import (
     LIMIT_NEAR,
     LOOK_S,
     OUT_OF_RANGE,
-    START_STEPS,
     STOP_TRIES,
     Exchange,
     at,
     ended,
+    not_started,
 )
 from device.tasks import LinkError, NotAllowed, Send, Steps, Wait
 from device.wire import Answer, Frame, Kind, Shape, framed
@@ -139,8 +138,7 @@ class Track:
     def _not_started(self) -> Steps[None]:
         code = yield from self.exchange.code()
         yield from self._stop()
-        words = ERROR_TEXTS.get(code, "unknown error")
-        why = f"Axis {self.axis} did not start: error {code}, {words}. {START_STEPS.get(code, 'Is the way free?')}"
+        why = f"Axis {self.axis} did not start: {not_started(code)}"
         if code not in (OUT_OF_RANGE, AT_SWITCH):
             raise NotAllowed(why)
         self._block(why)

@@ -186,7 +186,7 @@ def test_watch_refuses_everything_by_hand() -> None:
 def test_a_refused_line_is_said_and_everything_is_put_back() -> None:
     bench = Bench("ssc2").ready()
     bench.ask("MO")
-    with pytest.raises(LinkError, match="refused: error 20"):
+    with pytest.raises(LinkError, match=r"not started: error 20, .*\. Switch the motor on \(SH\) first"):
         go(bench, jog.by("X", 100, 2000, RAMP, RAMP))
     assert bench.result(bench.controller.read("_SPX")) == (25_000,)
 
