@@ -34,7 +34,7 @@ class Room:
     def prepare(self, model: Model) -> Steps[None]:
         """Room, names, RA and RD; raises one sentence where something stands against it."""
         records, tm = yield from self._talk.numbers(("_RC", Shape(1, 0)), ("_TM", Shape(5, 0)))
-        if records:
+        if records and not (yield from self._left_recording(model)):
             raise NotAllowed(f"{NOT}: the controller is recording already (_RC is 1). Wait for its end, or send RC 0.")
         self.tm = tm
         plan = self._plan
@@ -49,14 +49,31 @@ class Room:
         yield from self._talk.must("RA " + ",".join(f"{name}[]" for name in self.names))
         yield from self._talk.must("RD " + ",".join(channel.code for channel in plan.channels))
 
-    def _reserved(self, model: Model) -> Steps[int]:
-        """Elements that a running program may still want; raises where it records by itself."""
+    def _left_recording(self, model: Model) -> Steps[bool]:
+        """Round and round into arrays of ours, since the line was lost: ended, and the arrays given back."""
+        if (yield from self._running(model)):
+            return False
+        listing = yield from self._listing()
+        for first in NAMES:
+            name = _names(first, 1)[0]
+            if not re.search(rf"\b{name}\b", listing) and (yield from self._talk.known(f"{name}[0]")):
+                yield from self._talk.must("RC 0")
+                yield from self._free_left()
+                return True
+        return False
+
+    def _running(self, model: Model) -> Steps[frozenset[int]]:
+        """Lines of the program that run now."""
         lines = yield from self._talk.numbers(*((f"_XQ{n}", Shape(4, 0)) for n in range(min(model.threads, 2))))
         if model.threads > 2:
             lines += yield from self._talk.numbers(*((f"_XQ{n}", Shape(4, 0)) for n in range(2, model.threads)))
         running = frozenset(int(line) for line in lines if line >= 0)
         self._c.waiting.threads(running)
-        if not running:
+        return running
+
+    def _reserved(self, model: Model) -> Steps[int]:
+        """Elements that a running program may still want; raises where it records by itself."""
+        if not (yield from self._running(model)):
             return 0
         listing = yield from self._listing()
         place = next((n for n, text in enumerate(listing.split("\n")) if re.search(r"(?:^|[;\s])R[ACD]\b", text)), None)

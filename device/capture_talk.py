@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from codegen.twoletter.problems import ERROR_TEXTS
 from device.poll import SHARE
 from device.proof import with_proof
-from device.tasks import LinkLost, NotAllowed, Refused, Send, Steps, Stopped, Wait
+from device.tasks import LinkError, LinkLost, NotAllowed, Refused, Send, Steps, Stopped, Wait
 from device.wire import NOTHING, Answer, Expectation, Frame, Kind, Shape, framed
 
 if TYPE_CHECKING:
@@ -85,7 +85,18 @@ class Talk:
             answer = yield from self.exchange(line, Frame(nonce, shapes), 0.8, keep=keep)
             if answer.kind is Kind.VALUES:
                 return list(answer.values)
+        if answer.text.strip() == "?":
+            raise LinkError(f"Capture ended: the controller has no {reads[0][0]} any more (was it reset?).")
         raise LinkLost(f"Capture ended: reading {reads[0][0]} was disturbed {TRIES} times.")
+
+    def known(self, expression: str) -> Steps[bool]:
+        """Whether the controller can tell this value, which may be an array that is not there."""
+        nonce, shape = next(self._c.nonces), Shape(10, 4)
+        line = framed(nonce, ((expression, shape),)).encode() + b"\r"
+        answer = yield from self.exchange(line, Frame(nonce, (shape,)), 0.8)
+        if answer.kind is not Kind.VALUES:
+            yield from self.fence()
+        return answer.kind is Kind.VALUES
 
     def line_and_proof(self, line: str) -> tuple[bytes, Expectation]:
         """A line that sends nothing back but its proof: text that comes in between is a program's."""

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from codegen.setup import Setup
     from device.api import Controller
 
+STANDS_S = 0.2  # the pointer of a ring, beyond two intervals, before it is asked whether it records at all
 ELEMENT = re.compile(r"[ -][0-9]{10}\.[0-9]{4}")  # of QU while VF is 10.4; anything else is read framed
 
 
@@ -107,6 +108,10 @@ class Recording:
         self._when = ""
         self._judged, self._sends = "", False  # a listing, and whether it sends text
         self._ended = False  # by us, before its time
+        self._whole = True  # nothing ended it before the trigger came and enough was recorded
+        self._before: float | None = None
+        self._armed = False  # by how the trigger's signal was before the recording began
+        self._trigger_text = plan.trigger.text
         self.during: Callable[[], Steps[None]] | None = None
 
     # ------------------------------------------------------------------ the whole
@@ -123,6 +128,8 @@ class Recording:
         line = f"RC {plan.exponent},{-plan.count if ring else plan.count}" + (f";{plan.go}" if plan.go else "")
         if len(line) + 1 + FRAME_COLUMNS > model.columns:
             raise NotAllowed(f"{NOT}: “{plan.go}” is too long to start with the recording.")
+        if ring:
+            yield from self._arm()
         self.room.began = True
         yield from self._talk.must(line)
         self._start = c.clock()
@@ -131,7 +138,15 @@ class Recording:
         yield from self._ring(model) if ring else self._line()
         if not self._read:
             raise LinkError("Capture cancelled before anything was read.")
-        return self._captured(complete=self._read == self._values.shape[1] == plan.count)
+        yield from self._same_time()
+        return self._captured(complete=self._whole and self._read == self._values.shape[1] == plan.count)
+
+    def _same_time(self) -> Steps[None]:
+        """All times are worked out from TM; where it was changed meanwhile the record says so."""
+        (tm,) = yield from self._talk.numbers(("_TM", Shape(5, 0)), keep=True)
+        if tm != self.room.tm:
+            words = f"TM was changed from {self.room.tm:g} to {tm:g} while this was recorded: its times are not right."
+            self._note = f"{self._note} {words}".strip()
 
     def partial(self) -> Capture | None:
         """What there is by now."""
@@ -146,7 +161,7 @@ class Recording:
             tm=self.room.tm,
             trigger=self._trigger,
             early=self._early,
-            trigger_text=plan.trigger.text,
+            trigger_text=self._trigger_text,
             model=c.model.name if c.model is not None else "",
             controller=c.who,
             when=self._when,
@@ -215,6 +230,9 @@ class Recording:
         if bracket is not None:
             self._trigger = min(max(bracket[1] - oldest, 0), len(order) - 1)
             self._early = min(bracket[1] - bracket[0], self._trigger)
+        else:  # all of it is from before
+            self._whole, self._trigger = False, len(order)
+            self._trigger_text = f"ended before it came ({trigger.text})"
         while self._read < len(order) and not self._job.cancelled:
             end = min(len(order), self._read + self._talk.chunk())
             stretch = order[self._read : end]
@@ -226,11 +244,28 @@ class Recording:
                 trigger, plan.channels, self._values, self._trigger - self._early, self._trigger
             )
 
+    def _arm(self) -> Steps[None]:
+        """What is true before the recording begins is no trigger; what changes from then on is one."""
+        trigger = self._plan.trigger
+        for _ in range(2):  # a position says only with the second reading whether it stands
+            (value,) = yield from self._talk.numbers(live.expression(watched(trigger)))
+            _, self._armed = passed(trigger, self._before, value, False)
+            self._before = value
+
+    def _goes_on(self, turning: Turning) -> Steps[bool]:
+        """Whether it still records: its pointer stands for long only where somebody else ended it (RC 0)."""
+        if self._c.clock() - turning.changed < 2 * self._plan.interval_s(self.room.tm) + STANDS_S:
+            return True
+        (records,) = yield from self._talk.numbers(("_RC", Shape(1, 0)), keep=True)
+        turning.changed = self._c.clock()
+        self._whole = self._whole and bool(records)
+        return bool(records)
+
     def _wait_for(self, trigger: Trigger, turning: Turning) -> Steps[tuple[int, int] | None]:
         """Elements between which the trigger came, counted from the start; None when it was not waited for longer."""
         expression, shape = live.expression(watched(trigger))
-        before: float | None = None
-        armed, last, earlier = False, 0, 0
+        before, armed = self._before, self._armed
+        last, earlier = 0, 0
         while not (self._job.cancelled or self._job.finished):
             self._tell(f"waiting: {trigger.text}", math.nan)
             value, index = yield from self._talk.numbers((expression, shape), ("_RD", Shape(4, 0)), keep=True)
@@ -238,6 +273,8 @@ class Recording:
             came, armed = passed(trigger, before, value, armed)
             if came:
                 return earlier, total
+            if not (yield from self._goes_on(turning)):
+                return None
             earlier, last, before = last, total, value
             yield from self._talk.breathe()
         return None
@@ -253,6 +290,8 @@ class Recording:
             yield from self._talk.pause(min(max(left - 0.02, 0.005), 0.2))
             (index,) = yield from self._talk.numbers(("_RD", Shape(4, 0)), keep=True)
             turning.count_on(int(index), self._c.clock())
+            if not (yield from self._goes_on(turning)):
+                return
 
     # ------------------------------------------------------------------- reading
 

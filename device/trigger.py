@@ -22,10 +22,13 @@ class Turning:
 
     def __init__(self, size: int, interval_s: float, start: float) -> None:
         self._size, self._interval_s, self._at = size, interval_s, start
+        self._index, self.changed = -1, start  # the pointer, and since when it stands there
         self.total = 0
 
     def count_on(self, index: int, now: float) -> int:
         """The pointer was read now; the number of elements taken so far."""
+        if index != self._index:
+            self._index, self.changed = index, now
         likely = self.total + (now - self._at) / self._interval_s
         turns = max(round((likely - index) / self._size), 0)
         found = turns * self._size + index
