@@ -1,4 +1,4 @@
-"""Bringing an axis to life: the window with what stands around it: record, live values, what left a step behind."""
+"""Bringing an axis to life: the window with what stands around it: record, live values, report."""
 
 from __future__ import annotations
 
@@ -7,20 +7,21 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from datetime import datetime
 from fractions import Fraction
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
 
 from app import facts as need
+from app.asked import AskedOfMachine
 from app.commissioning_orders import Orders
 from app.connection import Connection
 from app.facts import Facts
 from app.run import Ask
 from app.session import Session
 from app.tick import Tick, failure_of
-from device.api import Controller, Job, Kind, State
+from device.api import Controller, Job, Kind
+from device.commissioning.judge_stepper import refused
 from device.commissioning.record import Finding, Record, Verdict, keep, resumed
 from device.commissioning.seen import Switches, Turned
 from device.commissioning.steps import Step, steps_for
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
     from codegen.setup import Axis
     from device.commissioning.judge import Moved
-    from device.former import Former
     from widgets.commissioning.window import CommissioningWindow
     from widgets.program.printing import PrintPreview
 
@@ -46,6 +46,7 @@ class Commissioning(QObject):
 
     said = Signal(str)
     help_wanted = Signal(str)
+    broken = Signal()  # a step failed: something may be left to put back
 
     def __init__(
         self,
@@ -59,7 +60,8 @@ class Commissioning(QObject):
         now: Callable[[], datetime] = datetime.now,
     ) -> None:
         super().__init__(parent)
-        self._connection, self._session, self._tick, self.ask = connection, session, tick, ask
+        self._connection, self._session, self._tick = connection, session, tick
+        self.ask = AskedOfMachine(connection, ask, self.said.emit)
         self._facts, self._parent, self.now = facts, parent, now
         self.folder = data / "commissioning"
         self.window: CommissioningWindow | None = None
@@ -77,7 +79,6 @@ class Commissioning(QObject):
         self._to_keep = 0  # ticks until what was typed is written
         self._looking = False
         self._seen: Controller | None = None
-        self._offered: Controller | None = None
         self._watched: tuple[str, ...] = ()
         self._orders = Orders(self)
 
@@ -160,16 +161,25 @@ class Commissioning(QObject):
             self._forget()
         self._show()
 
+    @property
+    def place(self) -> str:
+        """The live value that tells where the axis is: a stepper is where it was commanded to be."""
+        return "commanded" if self.axis.is_stepper else "position"
+
+    @property
+    def live(self) -> tuple[str, ...]:
+        """The values of this axis that are read."""
+        return (*LIVE, "commanded", "auxiliary") if self.axis.is_stepper else LIVE
+
     def look(self) -> None:
-        """With each tick: live values, what a press allows; and what an interrupted step left is offered."""
-        self._offer()
+        """With each tick: live values, what a press allows."""
         window = self.window
         if window is None or not window.isVisible():
             self._watch(())
             return
         if self.controller is not self._seen:
             self._meet()
-        self._watch(tuple(f"{name}.{self.record.axis.lower()}" for name in LIVE) if self.controller.model else ())
+        self._watch(tuple(f"{name}.{self.record.axis.lower()}" for name in self.live) if self.controller.model else ())
         self._read()
         if self._to_keep == 1:
             self.keep(self.record)
@@ -203,8 +213,8 @@ class Commissioning(QObject):
         def ended(future: Future[Any]) -> None:
             self.busy, self.job = "", None
             if failure := failure_of(future):
-                self._offered = None
-                self.found(Finding(Verdict.OPEN, failure), key)
+                self.broken.emit()
+                self.found(refused(failure), key)
             elif controller is self.controller:
                 done(future.result())
             self._show()
@@ -316,7 +326,7 @@ class Commissioning(QObject):
         found = [(step, self.record.of(step.key)) for step in self.steps]
         entries = [Entry(step.title, finding.verdict.value, finding.sentence) for step, finding in found]
         window.show_steps(entries, self.row, self.step.optional and not self.busy, bool(self.record.findings))
-        live = {name: row.value(f"{name}.{self.record.axis.lower()}") for name in LIVE}
+        live = {name: row.value(f"{name}.{self.record.axis.lower()}") for name in self.live}
         now = Now(
             self.record, self.axis, live, self.reason, self.busy, self.turned, self.switches, self.moved,
             self.measured is not None and self.measured != self.axis.scale,
@@ -349,47 +359,3 @@ class Commissioning(QObject):
         self.preview.setProperty("helpPage", "Bring an axis to life")
         self.preview.said.connect(self.said)
         self.preview.show()
-
-    # ---- after an interruption
-
-    def _offer(self) -> None:
-        """Whenever Control is taken, and after a failure: what a step that was interrupted has left changed."""
-        controller = self.controller
-        if controller.state is not State.READY or not controller.control:
-            self._offered = None
-        elif controller is not self._offered and not self.busy:
-            self._offered = controller
-            self._offer_left(controller)
-
-    def _offer_left(self, controller: Controller) -> None:
-        if not self.folder.is_dir():
-            return
-        from device.former import left_behind, meant
-
-        for former in left_behind(self.folder):
-            if meant(former, controller):
-                words = (
-                    f"A step with axis {former.axis} was interrupted ({former.when[:16].replace('T', ' ')}). The "
-                    "controller may still have its narrow limits and slow speed. The motor goes off, and everything "
-                    "is set as it was before. Nothing is burned."
-                )
-                self.ask(
-                    "Put the former limits back?", words,
-                    [("Put back", partial(self._put_back, former)), ("Leave it so", partial(_drop, former))], "warning",
-                )  # fmt: skip
-                return
-
-    def _put_back(self, former: Former) -> None:
-        from device.former import put_back
-
-        def done(future: Future[Any]) -> None:
-            self.said.emit(failure_of(future) or future.result())
-            self._offered = None if not failure_of(future) else self._offered  # there may be another one
-
-        self._tick.when_done(put_back(self.controller, former, motor_off=True), done)
-
-
-def _drop(former: Former) -> None:
-    from device.former import forget
-
-    forget(former)

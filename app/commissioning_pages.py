@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from codegen.setup import Axis
+from codegen.setup import MOTOR_WORDS, Axis
 from device.commissioning.judge import Moved
 from device.commissioning.moves import TRIAL_COUNTS, TRIAL_ERROR
 from device.commissioning.record import Record, Verdict
@@ -17,6 +17,7 @@ from widgets.parts.units import shown
 
 SWITCH_KINDS = (("-1", "closes to zero volts when tripped (CN -1)"), ("1", "opens when tripped (CN 1)"))
 HALLS = (("0", "none"), *((str(first), f"inputs {first} to {first + 2}") for first in range(1, 6)))
+STEPPERS = tuple((kind.value, words) for kind, words in MOTOR_WORDS.items() if "stepper" in kind.value)
 WAIT = "Something is under way; wait for its end or press STOP."
 
 
@@ -176,6 +177,43 @@ def _volts(now: Now) -> str:
     return f"{value:.2f}" if math.isfinite(value) else "–"
 
 
+def _stepping(now: Now) -> tuple[Reading, ...]:
+    """A stepper: what was commanded, what went out, and an encoder where there is one."""
+    return (
+        Reading("Motor", now.motor, "warning" if now.motor == "on" else ""),
+        Reading("Commanded, pulses", now.counts("commanded")),
+        Reading("Sent, pulses", now.counts("auxiliary")),
+        Reading("Encoder, counts", now.counts("position")),
+    )
+
+
+def _stepper(now: Now) -> Parts:
+    fields = (
+        Entered("kind", "Motor type (MT)", now.text("stepper", "kind", now.axis.motor.value), "", STEPPERS),
+        Entered("smoothing", "Smoothing (KS)", now.text("stepper", "smoothing", now.axis.smoothing or "2"),
+                "0.5 to 8, 8 is smoothest"),
+    )  # fmt: skip
+    done = "" if now.record.of("stepper").verdict is Verdict.PASSED else "Set them first."
+    same = now.text("stepper", "kind", now.axis.motor.value) == now.axis.motor.value
+    same = same and now.text("stepper", "smoothing", now.axis.smoothing) == now.axis.smoothing
+    take = () if same else (Act("take_stepper", "Take them into the setup", done, primary=not done),)
+    acts = (Act("stepper", "Set", now.send, primary=bool(done)), *take)
+    return (Reading("Motor", now.motor),), fields, (), acts
+
+
+def _direction(now: Now) -> Parts:
+    fields = (Entered("counts", "Way of the test move", now.text("direction", "counts", str(TRIAL_COUNTS)), "pulses"),)
+    came = now.moved is not None and now.record.of("direction").verdict is not Verdict.FAILED
+    waiting = "" if came and not now.busy else "After a test move."
+    acts = (
+        Act("pulses", "Test move", now.send, primary=not came, moves=True),
+        Act("turned_forward", "It went forward", waiting, primary=came),
+        Act("turned_backward", "It went the other way", waiting),
+        Act("turned_not", "It did not turn", waiting),
+    )
+    return _stepping(now), fields, (), acts
+
+
 def _polarity(now: Now) -> Parts:
     fields = (
         Entered("counts", "Way of the test move", now.text("polarity", "counts", str(TRIAL_COUNTS)), "counts"),
@@ -207,17 +245,19 @@ def _scale(now: Now) -> Parts:
         Act("measured", "Judge", "" if came else "Move first.", primary=came),
         *_take_scale(now),
     )
-    return _going(now), fields, (), acts
+    return (_stepping if now.axis.is_stepper else _going)(now), fields, (), acts
 
 
 def _limits(now: Now) -> Parts:
-    position, symbol = now.live.get("position", math.nan), now.axis.symbol
-    fields = (
+    stepper, symbol = now.axis.is_stepper, now.axis.symbol
+    position = now.live.get("commanded" if stepper else "position", math.nan)
+    fields: tuple[Entered, ...] = (
         Entered("forward", "Forward limit (FL)", now.text("limits", "forward", now.axis.forward_limit), symbol),
         Entered("reverse", "Reverse limit (BL)", now.text("limits", "reverse", now.axis.reverse_limit), symbol),
-        Entered("torque", "Torque limit from now on (TL)",
-                now.text("limits", "torque", now.axis.torque_limit or "9.99"), "V"),
-    )  # fmt: skip
+    )
+    if not stepper:
+        torque = now.text("limits", "torque", now.axis.torque_limit or "9.99")
+        fields = (*fields, Entered("torque", "Torque limit from now on (TL)", torque, "V"))
     readings = (Reading("Motor", now.motor), Reading("Position", f"{shown(position, now.axis)} {symbol}"))
     done = "" if now.record.of("limits").verdict is Verdict.PASSED else "Set them first."
     acts = (
@@ -236,6 +276,8 @@ PARTS: Mapping[str, Callable[[Now], Parts]] = {
     "encoder": _encoder,
     "switches": _switches,
     "guards": _guards,
+    "stepper": _stepper,
+    "direction": _direction,
     "phases": _phases,
     "zero": _zero,
     "polarity": _polarity,

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from app.backup_part import BackupPart
     from app.commissioning import Commissioning
     from app.compose import Studio
+    from app.former_offer import Offer
     from app.search import Candidate
     from widgets.panel import Panel
 
@@ -43,8 +44,8 @@ class Late(QObject):
             return
         studio = self._studio
         self.proof.look(studio.follow.known)
-        made = "commissioning" in self.__dict__
-        if made or (studio.connection.controller.control and (studio.data / "commissioning").is_dir()):
+        self.interrupted.look()
+        if "commissioning" in self.__dict__:
             self.commissioning.look()
 
     def close(self) -> None:
@@ -92,6 +93,20 @@ class Late(QObject):
         )  # fmt: skip
         made.said.connect(studio.desk.say)
         made.help_wanted.connect(studio.desk.show_help)
+        made.broken.connect(self.interrupted.again)
+        return made
+
+    @cached_property
+    def interrupted(self) -> Offer:
+        """What a step of commissioning that broke off has left."""
+        from app.former_offer import STEP, Offer
+
+        studio = self._studio
+        made = Offer(
+            studio.connection, studio.tick, studio.desk.ask, studio.data / "commissioning",
+            lambda: "commissioning" in self.__dict__ and bool(self.commissioning.busy), self, STEP,
+        )  # fmt: skip
+        made.said.connect(studio.desk.say)
         return made
 
     # ---- actions

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
+from app.former_offer import Offer
 from app.tuner import Tuner
 from app.tuner_book import Book
 from app.tuner_memory import Memory
-from app.tuner_offer import Offer
 from widgets.tuner.panel import TunerPanel
 
 if TYPE_CHECKING:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
 from codegen.numbers import number_problem, parse_number, shown
 from codegen.setup import Axis
-from codegen.twoletter.problems import ERROR_TEXTS, STOP_TEXTS
+from codegen.twoletter.problems import STOP_TEXTS
 from device.commissioning.record import Finding, Verdict
 from device.commissioning.seen import NOT_FITTED, NOTHING, RIGHT, SWITCHES, Switches, Turned
 
@@ -52,6 +51,7 @@ WEAK = (
     "Is a brake closed, or the axis at its end?",
     "With weak gains the error limit is reached before there is force enough: allow a larger one, up to 400 counts.",
 )
+DIED = "Did the axis go on while its reading stood? Then a channel of its encoder died on the way: check its wires."
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +70,7 @@ class Moved:
     bounded: bool = False  # it left its bounds and was switched off from here
     changes: int = 0  # of the reading, until it stood
     error: int = 0  # the error limit around it, counts
+    encoder: int = 0  # what the encoder of a stepper moved, where there is one
     lost: bool = False  # it followed, and with more error allowed its reading stood still
 
     @property
@@ -260,7 +261,7 @@ def judge_set(wanted: Mapping[str, str], there: Mapping[str, str]) -> Finding:
 
 def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
     """Whether the loop pulls the axis to where it is commanded to be; `sine`: the controller commutates the motor."""
-    facts = _move_facts(moved)
+    facts = move_facts(moved)
     if not moved.tripped and not moved.bounded and abs(moved.way - abs(moved.asked)) <= ARRIVED:
         words = f"The loop has the right polarity: the axis came {moved.way} of {abs(moved.asked)} counts and stood."
         return Finding(PASSED, words, (), facts)
@@ -290,7 +291,7 @@ def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
         end = "forward" if moved.code == FORWARD_LIMIT else "reverse"
         return Finding(FAILED, f"The {end} limit stopped it.", ("Move the axis away from its end by hand.",), facts)
     words = f"It stopped short of its target, after {moved.way} of {abs(moved.asked)} counts: too little force."
-    return Finding(FAILED, words, WEAK, facts)
+    return Finding(FAILED, words, (*WEAK, DIED), facts)
 
 
 def judge_direction(finding: Finding, forward: bool) -> Finding:
@@ -303,7 +304,7 @@ def judge_direction(finding: Finding, forward: bool) -> Finding:
 
 def judge_scale(moved: Moved, asked: str, typed: str, axis: Axis) -> Finding:
     """The commanded way against the measured one."""
-    facts = _move_facts(moved)
+    facts = move_facts(moved)
     if moved.tripped or moved.bounded or abs(moved.way - abs(moved.asked)) > ARRIVED:
         return Finding(FAILED, f"The move did not end at its target{_stopped(moved)}.", WEAK, facts)
     measured = parse_number(typed)
@@ -323,66 +324,12 @@ def _stopped(moved: Moved) -> str:
     return "" if moved.code == AT_TARGET else f" ({STOP_TEXTS.get(moved.code, f'stop code {moved.code}')})"
 
 
-def _move_facts(moved: Moved) -> tuple[tuple[str, str], ...]:
+def move_facts(moved: Moved) -> tuple[tuple[str, str], ...]:
     return (
         ("Commanded", f"{moved.asked} counts"),
         ("Came", f"{moved.end - moved.start} counts"),
         ("Lowest and highest", f"{moved.low - moved.start}, {moved.high - moved.start} counts"),
         ("Stop code", f"{moved.code}, {STOP_TEXTS.get(moved.code, 'unknown')}"),
         ("Motor command", f"{moved.torque:.2f} V"),
+        *((("Error limit", f"{moved.error} counts"),) if moved.error else ()),
     )
-
-
-# ----------------------------------------------------------------- sine commutation
-
-FIELD_ADVICE = {
-    110: ("The hall inputs show 0 or 7, which no sensors give: check their supply and the first input (BI).",),
-    111: ("The axis is not set up as a brushless one (BA).",),
-    112: ("It did not come to rest in time: a little less voltage, or more friction on the axis.",),
-    113: ("It did not move: enable, power and both phase wires (ACMD, ACMD2)? Then more voltage.",),
-    114: ("It ran away: the phases are exchanged, or BM is wrong. Test the phases again.",),
-}
-
-
-def judge_phases(answer: str, cycle: str) -> Finding:
-    """What BS answered. No manual prints its words: what is not recognised is left to the person."""
-    lines = tuple(line.strip(" :\r") for line in answer.splitlines() if line.strip(" :\r"))
-    facts = tuple((f"Answer {number}", line) for number, line in enumerate(lines, 1))
-    said = " ".join(lines).lower()
-    if not lines or "no movement" in said:
-        return Finding(FAILED, "The motor did not move when its phases were driven.", FIELD_ADVICE[113], facts)
-    if wrong := [line for line in lines if "wrong" in line.lower()]:
-        return Finding(
-            FAILED, f"The controller says: {'; '.join(wrong)}.", ("Switch the power off, put it right.",), facts
-        )
-    wanted, found = parse_number(cycle), re.search(r"\bBM\b\D*([0-9.]+)", " ".join(lines))
-    if wanted and found is not None and abs(float(found[1]) / float(wanted) - 1) > 0.1:
-        words = (
-            f"The magnetic cycle is about {found[1]} counts, not {cycle}: the counts of a turn or the poles are wrong."
-        )
-        return Finding(FAILED, words, ("Type the right counts of one magnetic cycle (BM).",), facts)
-    return Finding(PASSED, f"The controller says: {'; '.join(lines)}.", (), facts)
-
-
-def judge_halls(moved: Moved, before: int, after: int) -> Finding:
-    """Whether the phase was set at a hall transition during the move."""
-    facts = (*_move_facts(moved), ("Hall inputs", f"{before} before, {after} after"))
-    if before in (0, 7) or after in (0, 7):
-        return Finding(FAILED, "The hall inputs show a state that no sensors give.", FIELD_ADVICE[110], facts)
-    if moved.tripped or moved.bounded:
-        return Finding(FAILED, "The axis did not follow while its phase was set.", TURN_THE_PHASES, facts)
-    if before == after:
-        words = "The hall inputs did not change on the way, so the phase was not set."
-        return Finding(FAILED, words, ("Is the magnetic cycle (BM) right? Are all three sensors wired?",), facts)
-    return Finding(PASSED, "The phase was set where the hall sensors changed. The motor is off.", (), facts)
-
-
-def judge_zero(accepted: bool, code: int, counts: int | None) -> Finding:
-    """How BZ ended."""
-    facts = (("Counts to phase zero", "?" if counts is None else str(counts)),)
-    if accepted:
-        return Finding(
-            PASSED, "The motor stands at commutation zero, and its phase is set. The motor is off.", (), facts
-        )
-    words = f"Commutation zero was not found: error {code}, {ERROR_TEXTS.get(code, 'unknown error')}."
-    return Finding(FAILED, words, FIELD_ADVICE.get(code, ()), facts)

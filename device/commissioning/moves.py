@@ -58,7 +58,7 @@ class Trial:
     counts: int
     error: int = TRIAL_ERROR
     torque: Fraction = Fraction(1)
-    stepper: bool = False  # it may have no encoder: where it is, is where it is commanded to be
+    stepper: bool = False  # it may have no encoder: where it is, tell the pulses that were sent (TD)
     before: str = ""  # a command between SH and the move
 
     @property
@@ -87,6 +87,8 @@ def move(c: Controller, trial: Trial, folder: Path, now: datetime, job: Job[Move
     yield from still(c, model, "Not moved")
     yield from switch_off(c, trial.axis, "Not moved")
     yield from _as_set_up(c, model, trial)
+    if trial.stepper:
+        return (yield from guarded(c, trial.axis, folder, now, lambda f: _stepping(c, trial, f, job), place="RP"))
     return (yield from guarded(c, trial.axis, folder, now, lambda former: _climbing(c, trial, former, job)))
 
 
@@ -105,8 +107,6 @@ def _as_set_up(c: Controller, model: Model, trial: Trial) -> Steps[None]:
 def _climbing(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Steps[Moved]:
     """Towards one place, with larger and larger error limits as long as one of them ends it on the way."""
     target, place = former.place + trial.counts, former.place
-    if trial.stepper:
-        return (yield from _driven(c, trial, place, former, job))
     before, best, stood = None, 0, 0
     for error in trial.errors():
         there = yield from _driven(c, dc.replace(trial, counts=target - place, error=error), place, former, job)
@@ -119,6 +119,16 @@ def _climbing(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> S
         if abs(target - place) < 2 * int(error * GROWTH) or (target - place) * trial.counts < 0:
             return moved  # what is left would not reach the error limit
     raise AssertionError  # the last of the errors returns
+
+
+def _stepping(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Steps[Moved]:
+    """One move, with what an encoder told of it; limits lie around the commanded position (RP)."""
+    names = [f"_TD{trial.axis}", f"_TP{trial.axis}"]
+    told = yield from exact(c.nonces, names, columns_of(c))
+    start, before = ((value or 0) // ONE for value in told)
+    moved = yield from _driven(c, trial, start, former, job)
+    told = yield from exact(c.nonces, names, columns_of(c))
+    return dc.replace(moved, encoder=(told[1] or 0) // ONE - before)
 
 
 def _coasted(exchange: Exchange, where: str, place: int, end: float) -> Steps[list[int]]:
@@ -137,7 +147,8 @@ def _coasted(exchange: Exchange, where: str, place: int, end: float) -> Steps[li
 
 def _driven(c: Controller, trial: Trial, start: int, former: Former, job: Job[Moved]) -> Steps[Moved]:
     axis, exchange = trial.axis, exchange_of(c)
-    low, high = sorted((start, start + trial.counts))
+    place = former.place if trial.stepper else start
+    low, high = sorted((place, place + trial.counts))
     guards = {
         "OE": ONE,
         "ER": scaled(trial.error),
@@ -164,14 +175,14 @@ def _driven(c: Controller, trial: Trial, start: int, former: Former, job: Job[Mo
 def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: Job[Moved]) -> Steps[Moved]:
     """Looks until the move has ended and the axis stands, or left its bounds; then the motor is off."""
     axis, places = trial.axis, [start]
-    where = f"_{'RP' if trial.stepper else 'TP'}{axis}"
+    where = f"_{'TD' if trial.stepper else 'TP'}{axis}"
     end, settled, bounded = c.clock() + LONGEST_S, 0.0, False
     while True:
         told = yield from exchange.read((f"_MO{axis}", FLAG), (f"_BG{axis}", FLAG), (where, COUNTS))
         if told is None or job.cancelled or c.clock() > end:
             raise LinkError("The move was ended from here; the motor is off.")
         off, moving, place = (int(value) for value in told)
-        stands = bool(settled) and abs(place - places[-1]) <= 1  # a dead channel stands too: then every moment counts
+        stands = settled and abs(place - places[-1]) <= 1 and not trial.stepper  # what a dead channel does is ended
         places.append(place)
         job.show("moving", abs(place - start), abs(trial.counts))
         way = (place - start) * (1 if trial.counts > 0 else -1)
@@ -203,7 +214,7 @@ def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: J
         volts[0],
         bounded,
         changes,
-        trial.error,
+        0 if trial.stepper else trial.error,
     )
 
 

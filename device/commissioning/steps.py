@@ -5,6 +5,7 @@ Sources: SSC manual chapter 2, steps 5-8 (ssc-tol-o-motion.txt l.807-931) and dm
 
 from __future__ import annotations
 
+import dataclasses as dc
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -18,6 +19,7 @@ class Drives(StrEnum):
 
     ANY = "any"
     SERVO = "servo"
+    STEPPER = "stepper"
     SINE = "sine"  # a servo whose phases the controller commutates (DMC-1412)
 
 
@@ -90,6 +92,21 @@ STEPS: tuple[Step, ...] = (
         needs=("encoder",),
     ),
     Step(
+        "stepper",
+        "Step and direction",
+        (
+            "The SM jumper of this axis is set (SSC: JP40), and step and direction go to the drive (SSC: J4, ICM-1460: "
+            "PWM and SIGN).",
+            "Choose the active level of the pulses that the drive wants, type the smoothing, and press “Set”. The "
+            "motor goes off.",
+        ),
+        "MT and KS as the controller holds them afterwards",
+        "read back equal; without the jumper the controller refuses with error 96",
+        "dmc-1412-1414.txt l.806-828, 2120-2147; SSC manual l.772, 934-956",
+        Drives.STEPPER,
+        needs=("safety",),
+    ),
+    Step(
         "phases",
         "Sine: phases and halls",
         (
@@ -136,6 +153,21 @@ STEPS: tuple[Step, ...] = (
         needs=("safety", "encoder", "switches", "guards"),
     ),
     Step(
+        "direction",
+        "Direction of the motor",
+        (
+            "Keep away from the axis, with a hand at the emergency stop. Press “Test move”: the motor is switched on, "
+            "turns by a few hundred pulses and goes off.",
+            "Say what you saw: nothing is measured, a stepper works without feedback.",
+        ),
+        "commanded position, pulses sent, and the encoder where there is one",
+        "by what you see; the pulses that were sent are those that were commanded",
+        "dmc-1412-1414.txt l.806-828, 2126-2147; SSC manual l.934-956",
+        Drives.STEPPER,
+        moves=True,
+        needs=("safety", "switches", "stepper"),
+    ),
+    Step(
         "halls",
         "Sine: phase by the halls",
         (
@@ -162,7 +194,7 @@ STEPS: tuple[Step, ...] = (
         "dmc-1412-1414.txt l.671-687; SSC manual l.916",
         moves=True,
         optional=True,
-        needs=("safety", "switches", "polarity"),
+        needs=("safety", "switches", "polarity", "direction"),
     ),
     Step(
         "limits",
@@ -194,5 +226,19 @@ BY_KEY = {step.key: step for step in STEPS}
 
 def steps_for(stepper: bool, sine: bool) -> tuple[Step, ...]:
     """The steps of an axis: a stepper has no loop, and few servos are commutated by the controller."""
-    kinds = {Drives.ANY} | (set() if stepper else {Drives.SERVO}) | ({Drives.SINE} if sine and not stepper else set())
-    return tuple(step for step in STEPS if step.drives in kinds)
+    kinds = {Drives.ANY, Drives.STEPPER} if stepper else {Drives.ANY, Drives.SERVO} | ({Drives.SINE} if sine else set())
+    steps = tuple(step for step in STEPS if step.drives in kinds)
+    return tuple(_of_a_stepper(step) for step in steps) if stepper else steps
+
+
+def _of_a_stepper(step: Step) -> Step:
+    """What is different for it: an encoder is optional (l.601), nothing limits the force."""
+    if step.key == "encoder":
+        return dc.replace(step, optional=True, todo=(*step.todo, "A stepper needs none: skip this step without one."))
+    if step.key == "limits":
+        todo = (
+            "Type the forward and the reverse limit of the travel, inside the limit switches.",
+            "Press “Set”: the motor goes off, FL and BL are sent and read back.",
+        )
+        return dc.replace(step, todo=todo, read="FL and BL as the controller holds them afterwards")
+    return step

@@ -11,14 +11,13 @@ from device.commissioning.judge import (
     Moved,
     judge_direction,
     judge_encoder,
-    judge_halls,
-    judge_phases,
     judge_polarity,
     judge_safety,
     judge_scale,
     judge_set,
     judge_switches,
 )
+from device.commissioning.judge_sine import judge_halls, judge_phases
 from device.commissioning.record import Finding, Record, Verdict, keep, resumed
 from device.commissioning.seen import NOT_FITTED, NOTHING, Switches, Turned
 from device.commissioning.steps import MOST, STEPS, steps_for
@@ -135,6 +134,7 @@ GOOD = Moved(300, 0, 298, 300, 0, 301, 1, False)
         (Moved(300, 0, 1, 61, 0, 1, 8, True, changes=1), "did not move"),
         (Moved(300, 0, 0, 61, 0, 0, 8, True), "did not move"),
         (Moved(300, 0, 40, 101, 0, 40, 8, True), "stopped short"),
+        (Moved(300, 0, 40, 101, 0, 41, 8, True, lost=True), "followed for 40 counts, then its reading stood still"),
         (Moved(300, 0, 100, 100, 0, 100, 2, False), "forward limit stopped"),
     ],
 )
@@ -224,7 +224,8 @@ def test_every_axis_has_its_own_steps() -> None:
         tuple(step.key for step in steps_for(*kind)) for kind in ((False, False), (False, True), (True, False))
     )
     assert set(sine) - set(servo) == {"phases", "zero", "halls"}
-    assert set(servo) - set(stepper) == {"guards", "polarity"}
+    assert set(servo) - set(stepper) == {"guards", "polarity"} and set(stepper) - set(servo) == {"stepper", "direction"}
+    assert next(step for step in steps_for(True, False) if step.key == "encoder").optional  # l.601
     assert sine.index("zero") < sine.index("polarity")
     assert MOST == 2000
     assert all(step.source and step.read and step.judged for step in STEPS)

@@ -19,12 +19,10 @@ from device.commissioning import moves, settings, sine
 from device.commissioning.judge import (
     ARRIVED,
     Moved,
-    judge_halls,
-    judge_phases,
     judge_polarity,
     judge_switches,
-    judge_zero,
 )
+from device.commissioning.judge_sine import judge_halls, judge_phases, judge_zero
 from device.commissioning.moves import Trial
 from device.commissioning.record import Verdict
 from device.commissioning.seen import NOTHING, Switches

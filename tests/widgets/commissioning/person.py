@@ -10,10 +10,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLineEdit
 
 from app.commissioning import Commissioning
+from codegen.setup_axis import MotorType
 from device.api import Kind
 from device.commissioning.record import Finding, Record, Verdict, keep
 from device.commissioning.steps import steps_for
 from device.simulator.kernel import layout
+from device.simulator.plant import Drive
 from tests.device.commissioning.machine import bearing
 from tests.stage import Stage
 from widgets.commissioning.window import CommissioningWindow
@@ -28,11 +30,14 @@ class Person:
     def __init__(
         self, stage: Stage, model: str = "ssc2", kind: Kind = Kind.SIMULATOR, done: int = 0, **faults: Any
     ) -> None:
-        """`done`: so many steps were passed at an earlier time."""
+        """`done`: so many steps were passed at an earlier time; with `drive=Drive.STEPPER` the axis is a stepper."""
         self.stage = stage
-        found = {step.key: Finding(Verdict.PASSED, "Passed.") for step in steps_for(False, False)[:done]}
+        stepper = faults.get("drive") is Drive.STEPPER
+        found = {step.key: Finding(Verdict.PASSED, "Passed.") for step in steps_for(stepper, False)[:done]}
         assert keep(Record("X", model, SERIAL, findings=found), stage.studio.data / "commissioning") == ""
         setup = dc.replace(stage.studio.session.document.setup, model=model)
+        if stepper:
+            setup = setup.with_axis("X", dc.replace(setup.axis("X"), motor=MotorType.STEPPER_LOW))
         document = dc.replace(stage.studio.session.document, setup=setup)
         stage.studio.session.set_document(document, "Machine")
         stage.connect(kind.value, model, plants={"X": bearing(**faults)})

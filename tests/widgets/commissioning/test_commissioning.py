@@ -2,36 +2,20 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLineEdit
+from PySide6.QtWidgets import QLineEdit
 
-from codegen.setup import Unit
 from device.api import Kind, State
 from device.commissioning.record import Verdict
-from tests.stage import Stage, make_studio
+from device.commissioning.steps import steps_for
+from tests.stage import Stage
 from tests.widgets.commissioning.person import LEFT, Person
 
 MOST = 2000  # counts
 POLARITY = 4  # steps in front of it
-
-
-@pytest.fixture
-def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
-    made = make_studio(tmp_path)
-    document = made.studio.session.document
-    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit="1000")
-    setup = dc.replace(document.setup, axes=(axis,) * 4)
-    made.studio.session.set_document(dc.replace(document, setup=setup), "Machine")
-    made.studio.window.resize(1280, 900)
-    made.studio.window.show()
-    made.go()
-    yield made
-    made.clear_away()
 
 
 def to_polarity(person: Person) -> None:
@@ -183,9 +167,24 @@ def test_what_an_interrupted_step_left_is_offered(stage: Stage, tmp_path: Path) 
     assert stage.rig.simulation.unit.state.registers["SP"][0] != before
     stage.rig.loopback.unplugged = False
     stage.until(lambda: stage.controller.state is State.READY)
-    stage.controller.take_control()
-    stage.studio.desk.question = None
-    stage.until(lambda: stage.studio.desk.question is not None)
-    QTest.mouseClick(stage.studio.desk.question.buttons["Put back"], LEFT)
+    stage.until(lambda: stage.studio.desk.question is not None)  # first thing, in Watch
+    question = stage.studio.desk.question
+    assert question is not None and "commissioning of axis X that began on" in question.words
+    assert "Before it:" in question.words and "switches the motor off" in question.words
+    QTest.mouseClick(question.buttons["Take Control and put them back"], LEFT)
     stage.until(lambda: not list((tmp_path / "commissioning").glob("*.before-tuning")))
     assert stage.rig.simulation.unit.state.registers["SP"][0] == before
+
+
+def test_a_question_left_open_does_nothing_after_stop(stage: Stage) -> None:
+    person = Person(stage, done=len(steps_for(False, False)) - 1)
+    person.desk.choose(len(person.desk.steps) - 1)
+    stage.go(2)
+    person.press("burn")
+    question = stage.studio.desk.question
+    assert question is not None
+    QTest.mouseClick(person.window.stop, LEFT)
+    stage.go(20)
+    QTest.mouseClick(question.buttons["Write to EEPROM"], LEFT)
+    stage.go(20)
+    assert not stage.rig.sent("BN") and person.finding("burn")[0] is Verdict.OPEN

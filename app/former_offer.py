@@ -1,9 +1,10 @@
-"""What a tuning that broke off has left: its former gains are offered first thing when the machine is there again."""
+"""What a step that broke off has left: former values are offered first thing when the machine is there again."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +19,28 @@ from device.api import Controller, Kind, State
 if TYPE_CHECKING:
     from device.former import Former
 
-TITLE = "A tuning was interrupted"
+
+@dataclass(frozen=True)
+class Broken:
+    """What it was that broke off, and how its former values are put back."""
+
+    title: str
+    name: str  # as in "the tuning of axis X"
+    back: str  # what putting them back does, a sentence
+    motor_off: bool = False
+
+
+TUNING = Broken(
+    "A tuning was interrupted",
+    "tuning",
+    "Putting them back moves nothing and burns nothing; a jog at speed 0 that was left is stopped.",
+)
+STEP = Broken(
+    "A commissioning step was interrupted",
+    "commissioning",
+    "Putting them back switches the motor off, moves nothing and burns nothing.",
+    motor_off=True,
+)
 
 
 class Offer(QObject):
@@ -34,9 +56,11 @@ class Offer(QObject):
         folder: Path,
         running: Callable[[], bool],
         parent: QObject | None = None,
+        broken: Broken = TUNING,
     ) -> None:
         super().__init__(parent)
         self._connection, self._tick, self._ask, self._folder, self._running = connection, tick, ask, folder, running
+        self._broken = broken
         self._looked_at: Controller | None = None  # and its values, or nothing left behind, were told
         self._told = False
 
@@ -53,6 +77,10 @@ class Offer(QObject):
             return
         self._looked_at = controller
         self.offer(controller)
+
+    def again(self) -> None:
+        """A step has failed here: what it could not put back is asked about, once it can be."""
+        self._looked_at = None
 
     def offer(self, controller: Controller) -> None:
         """Asks about the axes of this controller, one after the other."""
@@ -81,9 +109,10 @@ class Offer(QObject):
         from device.former import left_behind
 
         for former in left_behind(self._folder)[:1]:
+            values = f"gains ({former.gains()})" if former.gains() else "limits and speeds"
             self.said.emit(
-                f"The tuning of axis {former.axis} of {former.who} was interrupted. Connect it: its former gains "
-                f"({former.gains()}) are offered first."
+                f"The {self._broken.name} of axis {former.axis} of {former.who} was interrupted. Connect it: its "
+                f"former {values} are offered first."
             )
 
     def _compare(self, controller: Controller, former: Former, future: Future[Any]) -> None:
@@ -95,7 +124,8 @@ class Offer(QObject):
         there = future.result()
         if there == dict(former.values):
             self._forget(controller, former)
-            self.said.emit(f"Axis {former.axis} already has the values from before its interrupted tuning.")
+            name = self._broken.name
+            self.said.emit(f"Axis {former.axis} already has the values from before its interrupted {name}.")
             return
         self._put(controller, former, there)
 
@@ -106,16 +136,15 @@ class Offer(QObject):
         now = ", ".join(f"{name} {number(there[name])}" for name in differ if name in there)
         before = ", ".join(f"{name} {number(former.values[name])}" for name in differ)
         words = (
-            f"The tuning of axis {former.axis} that began on {former.when[:16].replace('T', ' at ')} did not come to "
-            f"its end. The controller holds {now}. Before it: {before}. Putting them back moves nothing and burns "
-            "nothing; a jog at speed 0 that was left is stopped."
+            f"The {self._broken.name} of axis {former.axis} that began on {former.when[:16].replace('T', ' at ')} did "
+            f"not come to its end. The controller holds {now}. Before it: {before}. {self._broken.back}"
         )
         put = "Put the former values back" if controller.control else "Take Control and put them back"
         answers = [
             (put, lambda: self._put_back(controller, former)),
             ("Keep what the controller holds", lambda: self._keep(controller, former)),
         ]
-        self._ask(TITLE, words, answers, "warning")
+        self._ask(self._broken.title, words, answers, "warning")
 
     def _put_back(self, controller: Controller, former: Former) -> None:
         from device.former import put_back
@@ -134,11 +163,12 @@ class Offer(QObject):
             self._forget(controller, former)
             self.said.emit(future.result())
 
-        self._tick.when_done(put_back(controller, former), done)
+        self._tick.when_done(put_back(controller, former, motor_off=self._broken.motor_off), done)
 
     def _keep(self, controller: Controller, former: Former) -> None:
         self._forget(controller, former)
-        self.said.emit(f"Axis {former.axis} keeps what the controller holds; its former values were {former.gains()}.")
+        were = former.gains() or "its limits and speeds"
+        self.said.emit(f"Axis {former.axis} keeps what the controller holds; before it had {were}.")
 
     def _forget(self, controller: Controller, former: Former) -> None:
         """All that was left of this axis; then the next one is asked about."""
