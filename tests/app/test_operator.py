@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
@@ -99,6 +99,38 @@ def test_shift_and_ctrl_hold_for_one_key(stage: Stage) -> None:
         QTest.mouseClick(caps[name], Qt.MouseButton.LeftButton)
     assert b"".join(sent) == b"G1\x02"
     assert "CTRL-SHIFT-F1" in keys.note.text()
+
+
+def test_the_function_keys_of_the_keyboard_are_the_terminals_alone(stage: Stage) -> None:
+    """Shift+F5 halts the program everywhere else in the window."""
+    rig, keys = stage.connect("simulator", "ssc1"), stage.studio.at_machine.keys
+    plug(stage)
+    rig.start("N=0;CC 9600,0,0,1;CI ,2\n#L;JP #L\nEN\n#COMINT\nC=P2CH;N=N+1;EN 1,1")
+    stage.until(lambda: rig.running)
+    sent: list[bytes] = []
+    keys.keys.connect(sent.append)
+    keys.screen.setFocus()
+    for key in (Qt.Key.Key_F1, Qt.Key.Key_F2, Qt.Key.Key_F3, Qt.Key.Key_F4, Qt.Key.Key_F5):
+        QTest.keyClick(keys.screen, key, Qt.KeyboardModifier.ShiftModifier)
+    stage.go(30)
+    assert b"".join(sent) == bytes(range(22, 27))  # l.5204
+    assert rig.running and not rig.stops and not rig.sent("HX|ST")
+
+
+def test_the_bells_can_be_told_apart(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    rig, keys = stage.connect("simulator", "ssc1"), stage.studio.at_machine.keys
+    plug(stage)
+    beeps: list[None] = []
+    monkeypatch.setattr(QApplication, "beep", lambda: beeps.append(None))
+    for letter, name in (("T", "short bell"), ("L", "long bell"), ("O", "alert")):  # l.5260: ESC T, L, O
+        rig.type(f'MG{{P2}}{{^27}},"{letter}"{{N}}')
+        stage.until(lambda name=name: keys.heard.text() == f"♪ {name}")
+    assert not beeps  # they are seen; heard only where that is wanted
+    QTest.mouseClick(keys.sounds, Qt.MouseButton.LeftButton, pos=QPoint(8, keys.sounds.height() // 2))
+    rig.type('MG{P2}{^27},"L"{N}')
+    stage.go(10)
+    QTest.qWait(400)
+    assert len(beeps) == 2
 
 
 def test_without_control_or_controller_no_key_is_sent(stage: Stage) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QTimer, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -32,7 +32,8 @@ SIMULATED = "Port 2 of the simulator"
 NOWHERE = "Connect the controller's main port first: STOP goes through it."
 WATCHED = "Switch from Watch to Control first: a key can start a motion."
 CLOSED = "Not connected"
-SILENT = "click"
+BEEPS = {"short bell": 1, "long bell": 2, "alert": 3}  # key clicks are not heard
+BEEP_MS, TOLD_MS = 250, 2000
 FORMS = {"Hand-held": HAND_HELD, "Panel": PANEL}
 
 
@@ -53,7 +54,9 @@ class OperatorPanel(Panel):
         self.screen.typed.connect(self._typed)
         self.line, self.form = QComboBox(), QComboBox()
         self.connect_button = QPushButton("Connect")
-        self.sounds = QCheckBox("Sounds")
+        self.sounds, self.heard = QCheckBox("Sounds"), QLabel()
+        self._quiet = QTimer(self, singleShot=True, interval=TOLD_MS)
+        self._quiet.timeout.connect(self.heard.clear)
         self.state, self.note = QLabel(CLOSED), QLabel()
         self._open = False
         self.pads: dict[str, Keypad] = {}  # made when first shown: the window opens sooner
@@ -138,10 +141,15 @@ class OperatorPanel(Panel):
         return "" if self._open else "Connect the line to port 2 first."
 
     def _sound(self) -> None:
-        heard = [sound for sound in self.terminal.sounds if sound != SILENT]
+        """A bell is shown for a moment, and heard where that is wanted: the long one and the alert as several beeps."""
+        bells = [sound for sound in self.terminal.sounds if sound in BEEPS]
         self.terminal.sounds.clear()
-        if heard and self.sounds.isChecked():
-            QApplication.beep()
+        if not bells:
+            return
+        set_text(self.heard, f"♪ {bells[-1]}")
+        self._quiet.start()
+        for number in range(BEEPS[bells[-1]] if self.sounds.isChecked() else 0):
+            QTimer.singleShot(number * BEEP_MS, self, QApplication.beep)
 
     # ---- arrangement
 
@@ -215,7 +223,12 @@ class OperatorPanel(Panel):
         tools.addWidget(label)
         tools.addWidget(self.form)
         tools.addStretch(1)
-        self.sounds.setToolTip("The bells of the terminal are heard; key clicks are not.")
+        self.sounds.setToolTip(
+            "The bells of the terminal are heard: one beep, two for the long bell, three for the alert."
+        )
+        self.heard.setProperty("role", "quiet")
+        self.heard.setAccessibleName("Bell of the terminal")
+        tools.addWidget(self.heard)
         tools.addWidget(self.sounds)
         column.addLayout(tools)
         column.addStretch(1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFontMetricsF, QHideEvent, QKeyEvent, QPainter, QPaintEvent, QPen, QShowEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -32,11 +32,18 @@ class Screen(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
+    def event(self, event: QEvent) -> bool:
+        """F1 to F5 are taken before the shortcuts of the window: Shift+F5 would halt the program."""
+        if event.type() is QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and _function_key(event):
+            event.accept()
+            return True
+        return super().event(event)
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Shift+F1 to Shift+F5 are F1 to F5, because F1 is help."""
         key, text, held = Qt.Key(event.key()), event.text(), event.modifiers()
-        if held & Qt.KeyboardModifier.ShiftModifier and Qt.Key.Key_F1 <= key <= Qt.Key.Key_F5:
-            self.named.emit(f"F{key - Qt.Key.Key_F1 + 1}")
+        if name := _function_key(event):
+            self.named.emit(name)
         elif NAMED.get(key) in self.terminal.by_name:
             self.named.emit(NAMED[key])
         elif len(text) == 1 and not held & Qt.KeyboardModifier.ControlModifier:
@@ -98,3 +105,11 @@ class Screen(QWidget):
         self._lit = not self._lit
         if self.terminal.blinking:
             self.update()
+
+
+def _function_key(event: QKeyEvent) -> str:
+    """F1 to F5 of the terminal, or nothing."""
+    key = Qt.Key(event.key())
+    if event.modifiers() & Qt.KeyboardModifier.ShiftModifier and Qt.Key.Key_F1 <= key <= Qt.Key.Key_F5:
+        return f"F{key - Qt.Key.Key_F1 + 1}"
+    return ""
