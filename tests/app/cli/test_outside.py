@@ -1,4 +1,4 @@
-"""The command line as somebody outside sees it: every documented call and option, in a process of its own."""
+"""The command line as somebody outside sees it: every documented call and option; serving in processes of their own."""
 
 from __future__ import annotations
 
@@ -13,19 +13,35 @@ import sys
 import time
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from app.__main__ import main
 from resources import path as resource
-from tests.app.cli.test_process import COMMAND, ROOT, called
+from tests.app.cli import test_process
+from tests.app.cli.test_process import COMMAND, ROOT
+from tests.long import is_long
 
 CUTTER = str(resource("examples/wire-cutter.tlp"))
 SOURCE = '#A\nPR 1000\nBG X\nAM X\nMG "A"{N}\nMG "B"\nSB 3\nEN\n'
 SIGNALS = [*(f"in{n}" for n in range(1, 9)), *(f"an{n}" for n in range(1, 8)), "fls_x", "rls_x", "home_x", "abort"]
 SIGNALS += ["aux_x", "aux_speed_x", "position_x", "load_x", "type", "type2", "reset"]
+
+
+def called(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """One call; a process each in the long run, and every day in test_process."""
+    if is_long():
+        return test_process.called(*arguments)
+    with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as said:
+        try:
+            code = main(list(arguments))
+        except SystemExit as leaving:
+            code = int(leaving.code or 0)
+    return subprocess.CompletedProcess(arguments, code, out.getvalue(), said.getvalue())
 
 
 @pytest.fixture
