@@ -6,7 +6,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QToolBar, QWidget
 
-from app.header import tool_bar
+from app.header import ALONE, UNDER, show_texts, tool_bar
 from app.held import Held, Holding
 from widgets.panel import show_role
 
@@ -46,7 +46,7 @@ BADGES = {
 }
 
 EEPROM = {True: ", burned", False: ", not burned", None: ", EEPROM unknown"}
-BESIDE, UNDER = Qt.ToolButtonStyle.ToolButtonTextBesideIcon, Qt.ToolButtonStyle.ToolButtonTextUnderIcon
+BESIDE = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
 ROOM = 48  # px: margins and the space between
 
 
@@ -93,22 +93,25 @@ class RunBar(QWidget):
         """The buttons are never cut off: their texts are what is pressed."""
         super().showEvent(event)
         if not self._widths:
-            self._widths = {style: self._width_with(style) for style in (UNDER, BESIDE)}
-            self.toolbar.setMinimumWidth(self._widths[UNDER])
+            self._widths = {style: self._width_with(style) for style in (ALONE, UNDER, BESIDE)}
         self._show_badge()
 
     def _width_with(self, style: Qt.ToolButtonStyle) -> int:
-        self.toolbar.setToolButtonStyle(style)
+        show_texts(self.toolbar, style)
         return self.toolbar.sizeHint().width()
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for the pictures and the sign of the badge."""
+        return QSize(self._widths.get(ALONE, 0) + ROOM, super().minimumSizeHint().height())
 
     def _fitting(self, words: str, short: str) -> tuple[Qt.ToolButtonStyle, str]:
         """Texts beside the pictures and the badge in full, where there is room for that."""
         metrics, room = self.badge.fontMetrics(), self.width() - ROOM
-        for style in (BESIDE, UNDER):
-            for text in (words, short):
+        for style, texts in ((BESIDE, (words, short)), (UNDER, (words, short, short[:1])), (ALONE, (words, short))):
+            for text in texts:
                 if self._widths.get(style, 0) + metrics.horizontalAdvance(text) <= room:
                     return style, text
-        return UNDER, short
+        return ALONE, short[:1]
 
     def _show_badge(self) -> None:
         """What the controller holds, in as many words as there is room for."""
@@ -120,8 +123,7 @@ class RunBar(QWidget):
             words, short = f"{words}{EEPROM[self._eeprom]}", f"{short}{EEPROM[self._eeprom]}"
             role = role if self._eeprom is not False else "warning"
         style, text = self._fitting(words, short)
-        if style != self.toolbar.toolButtonStyle():
-            self.toolbar.setToolButtonStyle(style)
+        show_texts(self.toolbar, style)
         if text != self.badge.text():
             self.badge.setText(text)
         self.badge.setVisible(held is not None)

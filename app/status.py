@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QS
 from device.api import Job, Kind
 from widgets.panel import set_text
 from widgets.parts.kind import KindBadge
+from widgets.parts.short_label import ShortLabel
 
 
 class Progress(QWidget):
@@ -17,7 +18,7 @@ class Progress(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.words, self.bar, self.cancel = QLabel(), QProgressBar(), QPushButton("Cancel")
+        self.words, self.bar, self.cancel = ShortLabel(), QProgressBar(), QPushButton("Cancel")
         self.bar.setRange(0, 1000)
         self.bar.setFixedWidth(200)
         self.bar.setAccessibleName("Progress")
@@ -48,7 +49,8 @@ class Status(QStatusBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizeGripEnabled(False)
-        self.badge, self.link, self.program, self.position = KindBadge(), QLabel(), QLabel(), QLabel()
+        self.badge, self.position = KindBadge(), QLabel()
+        self.link, self.program = ShortLabel(), ShortLabel()
         self.progress = Progress()
         self.addPermanentWidget(self.progress)
         for widget in (self.position, self.program, self.link, self.badge):

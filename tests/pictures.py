@@ -87,11 +87,13 @@ def take_shown(theme: str) -> None:
 
 
 def settle() -> None:
-    """Lets layouts and singleshots happen."""
+    """Lets layouts and singleshots happen, and what was given up go."""
+    from PySide6.QtCore import QEvent
     from PySide6.QtWidgets import QApplication
 
     for _ in range(6):
         QApplication.processEvents()
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 def scenes(folder: Path, theme: str) -> Iterator[tuple[str, QWidget]]:

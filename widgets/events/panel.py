@@ -11,7 +11,6 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QLineEdit,
@@ -27,6 +26,7 @@ from widgets.display.readings import unit_of
 from widgets.panel import Panel, set_text
 from widgets.parts.icons import icon
 from widgets.parts.units import shown
+from widgets.parts.wrapping import WrappingRow
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 COLUMNS = ("Time", "What", "Where", "What happened", "Cause", "What to do next")
 ALL = "Everything"
 MOST = 1000  # rows shown; the search looks at all
+SEARCH = 120  # px, its least width
 EMPTY = "Nothing has happened yet. Faults, limits, program errors, resets, STOP, downloads and burns appear here."
 NO_HIT = "No event has these words."
 ICONS = {
@@ -179,7 +180,7 @@ class EventsPanel(Panel):
     def _lay_out(self) -> None:
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 4, 8, 4)
-        head = QHBoxLayout()
+        self.search.setMinimumWidth(SEARCH)
         self.search.setPlaceholderText("Search")
         self.search.setAccessibleName("Search events")
         self.search.setClearButtonEnabled(True)
@@ -187,15 +188,11 @@ class EventsPanel(Panel):
         self.kind.addItem(ALL, None)
         for what in What:
             self.kind.addItem(str(what).capitalize(), what)
-        head.addWidget(self.search, 1)
-        head.addWidget(self.kind)
-        head.addWidget(self.more)
-        head.addWidget(self.bundle)
         self.more.setToolTip("The help page of the selected event (F1)")
         self.bundle.setToolTip(
             "Events, traffic, program, setup, back-up, versions and a picture of the window in one file"
         )
-        column.addLayout(head)
+        column.addLayout(WrappingRow(self.search, self.kind, self.more, self.bundle))
         self.table.setHorizontalHeaderLabels(list(COLUMNS))
         self.table.setAccessibleName("Events")
         self.table.verticalHeader().hide()

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from codegen.fields import Dimension
 from codegen.points import LONGEST, Point, name_problem
 from codegen.setup import Setup
 from device.jog import Places, Plan
@@ -27,9 +28,20 @@ from widgets.jog.one_axis import enable
 from widgets.jog.speed import PaceChoice
 from widgets.panel import set_text, show_role
 from widgets.parts.look import look
+from widgets.parts.units import decimals_of
 
 NOBODY = "Save where the axes are under a name; then you can go back there."
 CHOOSE = "Choose a point in the list."
+
+
+def places_words(point: Point, setup: Setup) -> str:
+    """With the fixed decimals of each axis; as it was saved where its unit is another one now."""
+    told = []
+    for each in point.places:
+        same = each.axis in setup.letters and each.unit == setup.unit_text(Dimension.POSITION, each.axis)
+        places = decimals_of(setup.axis(each.axis)) if same else 0
+        told.append(f"{each.axis} {f'{float(each.number):.{places}f}' if same else each.number} {each.unit}")
+    return ", ".join(told)
 
 
 class SavedPage(QWidget):
@@ -73,8 +85,10 @@ class SavedPage(QWidget):
         self.table.blockSignals(True)
         self.table.setRowCount(len(points))
         for row, point in enumerate(points):
-            for column, text in enumerate((point.name, point.words)):
-                self.table.setItem(row, column, QTableWidgetItem(text))
+            for column, text in enumerate((point.name, places_words(point, self._setup))):
+                item = QTableWidgetItem(text)
+                item.setToolTip(f"{point.name}: {point.words}")
+                self.table.setItem(row, column, item)
         self.table.clearSelection()
         for row, point in enumerate(points):
             if point.name == before:

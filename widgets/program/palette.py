@@ -18,6 +18,7 @@ MODES = QIcon.Mode
 STRENGTHS = ((MODES.Normal, 255), (MODES.Active, 255), (MODES.Selected, 255), (MODES.Disabled, 90))
 KIND = Qt.ItemDataRole.UserRole
 DOT = 10
+LEAST = 128  # px: names of instructions can be told apart
 HINT = "Enter or a double click opens the dialog; or drag an instruction into the program."
 
 
@@ -59,6 +60,8 @@ class Palette(QWidget):
         self.tree.setAccessibleName("Instructions")
         self.tree.setIndentation(16)
         self.tree.setUniformRowHeights(True)
+        self.tree.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.tree.setMinimumWidth(LEAST)
         self.tree.setDragDropMode(QAbstractItemView.DragDropMode.DragOnly)
         self.tree.itemActivated.connect(self._activated)
         self.tree.itemClicked.connect(self._clicked)

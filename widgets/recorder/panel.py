@@ -25,10 +25,11 @@ from PySide6.QtWidgets import (
 
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.icons import icon
+from widgets.parts.wrapping import WrappingRow
 
 COLUMNS = ("Time", "Who", "What happened")
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 20.0)
-MOST = 1000  # rows shown, the newest ones
+MOST, SEARCH = 1000, 160  # rows shown, the newest ones; least width of the search, px
 STEP = 10  # of the slider, in a second
 SECOND, PAGE = 1, 10  # s: a key, a page
 EMPTY = (
@@ -178,21 +179,18 @@ class RecorderPanel(Panel):
         show_role(self.problem, "warning")
         column.addWidget(self.problem)
         column.addWidget(self._bar())
-        head = QHBoxLayout()
         self.search.setPlaceholderText("Search what happened")
         self.search.setAccessibleName("Search what happened")
         self.search.setClearButtonEnabled(True)
-        head.addWidget(self.search, 1)
+        self.search.setMinimumWidth(SEARCH)
         for button, name in ((self.replay, "play"), (self.open, "open"), (self.save, "save"), (self.leave, "exit")):
             button.setIcon(icon(name))
-            head.addWidget(button)
         self.replay.setToolTip("Plays everything that is kept; the connection is closed first")
         self.open.setToolTip("A recording (.tape) or a service bundle (.zip), also from another computer")
         self.open.setAccessibleName("Open recording or bundle")
         self.save.setToolTip("Writes everything that is kept into one file")
         self.leave.setToolTip("Closes the recording")
-        head.addStretch()
-        column.addLayout(head)
+        column.addLayout(WrappingRow(self.search, self.replay, self.open, self.save, self.leave))
         self._set_up_table()
         column.addWidget(self.table, 1)
         column.addStretch()

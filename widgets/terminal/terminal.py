@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent, QTextCharFormat, QTextCursor
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from device.api import Kind, NoticeKind
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.files import LOGS, ask_save
 from widgets.parts.look import look
+from widgets.parts.wrapping import WrappingRow
 from widgets.terminal.command_line import CommandLine
 from widgets.terminal.diary import Diary
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from device.api import Controller, Notice, Reply, Row, Traffic
 
 MOST_LINES = 5000
+LEAST = 240  # px of the line that is typed into
 # what a line is: (colour token, sign before it)
 STYLES = {
     "typed": ("accent", "› "),
@@ -195,15 +197,12 @@ class TerminalPanel(Panel):
         self.log.setPlaceholderText("Replies and program messages appear here.")
         self.line.setFont(look().code_font())
         self.line.setAccessibleName("Command")
-        self.line.setPlaceholderText("Two-letter command, for example TP or MG _TPX")
+        self.line.setPlaceholderText("Command, such as TP or MG _TPX")
         self.send.setProperty("role", "primary")
         self.why.setWordWrap(True)
         self.log.setMinimumHeight(48)
-        foot, column = QHBoxLayout(), QVBoxLayout(self)
-        foot.setSpacing(8)
-        foot.addWidget(self.line, 1)
-        for widget in (self.send, self.traffic, self.keep, self.clear):
-            foot.addWidget(widget)
+        self.line.setMinimumWidth(LEAST)
+        column = QVBoxLayout(self)
         column.setContentsMargins(8, 0, 8, 4)
         column.setSpacing(4)
         column.addWidget(self.log, 1)
@@ -213,7 +212,7 @@ class TerminalPanel(Panel):
         self.help.setProperty("role", "quiet")
         self.help.hide()
         column.addWidget(self.help)
-        column.addLayout(foot)
+        column.addLayout(WrappingRow(self.line, self.send, self.traffic, self.keep, self.clear))
 
 
 def why_not(controller: Controller) -> str:

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from device.api import Kind, State
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.look import look
+from widgets.parts.wrapping import WrappingRow
 
 if TYPE_CHECKING:
     from device.api import Controller, Row
@@ -269,13 +270,7 @@ class ValuesPanel(Panel):
         outer.addStretch(0)
         column = QVBoxLayout(self._inside)
         column.setContentsMargins(0, 0, 0, 0)
-        head = QHBoxLayout()
-        for widget in (self.read, self.keep):
-            head.addWidget(widget)
-        head.addStretch(1)
-        for widget in (self.load, self.save, self.send):
-            head.addWidget(widget)
-        column.addLayout(head)
+        column.addLayout(WrappingRow(self.read, self.keep, self.load, self.save, self.send))
         both = QHBoxLayout()
         self._right = QWidget()
         self._right_column = QVBoxLayout(self._right)
