@@ -86,6 +86,7 @@ class SetupDesk(QObject):
             return
         from widgets.setup.window import Online
 
+        window.grow()
         controller, facts = self._connection.controller, self.facts()
         if controller is not self._read_from:
             window.forget_readings()

@@ -7,7 +7,7 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
@@ -78,12 +78,14 @@ class DisplayPanel(Panel):
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
-        self._fit()
+        self._letters, self._analog = "", ()  # nothing is asked for that this one may not have
+        self._voltages.hide()
+        self._show_linked()
 
     def show_document(self, old: Document | None, new: Document) -> None:
         if old is None or old.setup is not new.setup:
             self._setup = new.setup
-            self._fit()
+            self._show_linked()
 
     def show_source(self, lines: Sequence[str], sentences: Mapping[int, str]) -> None:
         """What the controller holds; `sentences`: the instructions of its lines when it is the open program."""
@@ -123,7 +125,8 @@ class DisplayPanel(Panel):
         for letter, readout in self.axes.items():
             axis, switches = self._setup.axis(letter), switches_of(row, letter, now)
             readout.show_axis(axis_shown(row, letter, axis, now))
-            self.switches.show_axis(letter, switches, drive_of(row, letter, axis, switches, now))
+            if letter in self.switches.letters:
+                self.switches.show_axis(letter, switches, drive_of(row, letter, axis, switches, now))
         self.stops.show_said(said_of(row, self.axes, now))
         self.analog.show_volts([(row.value(key), row.stale(key, now)) for key in self._analog])
         self.inputs.show_byte(row.value("inputs"), row.stale("inputs", now))
@@ -182,29 +185,40 @@ class DisplayPanel(Panel):
         allowed = controller.control and controller.io_control
         self.outputs.show_switchable(allowed, "" if allowed else "Switch on I/O control to switch outputs by a click.")
 
-    def _fit(self) -> None:
-        """Axes, lamps and threads as model and setup have them."""
-        controller = self.controller
-        linked = controller is not None and controller.kind is not Kind.OFFLINE and self._setup is not None
+    def _show_linked(self) -> None:
+        """How to connect where nothing is connected; the rest comes with the ticks."""
+        linked = self.controller is not None and self.controller.kind is not Kind.OFFLINE and self._setup is not None
         self.empty.setVisible(not linked)
         self._ways.setVisible(not linked)
         self._body.setVisible(linked)
-        if not linked or controller is None or self._setup is None:
+
+    def _fit(self) -> None:
+        """Axes, lamps and threads as model and setup have them; what is not there yet is made one group with a tick."""
+        controller, setup = self.controller, self._setup
+        if controller is None or controller.kind is Kind.OFFLINE or setup is None:
             return
-        letters, model = controller.axes or self._setup.letters, controller.model
-        if letters != self._letters:
-            self._letters = letters
-            self._show_axes(letters)
+        model = controller.model
         self._threads = model.threads if model is not None else 1
         inputs, outputs = (model.inputs, model.outputs) if model is not None else (8, 8)
-        count = model.analog_inputs if model is not None else 0
+        groups: tuple[tuple[object, Any, Callable[[Any], None]], ...] = (
+            (self._letters, controller.axes or setup.letters, self._show_axes),
+            (self.switches.letters, self._letters, self.switches.show_axes),
+            (self.inputs.names, _names(setup.input_names, inputs), self.inputs.show_names),
+            (self.outputs.names, _names(setup.output_names, outputs), self.outputs.show_names),
+            (len(self._analog), model.analog_inputs if model is not None else 0, self._show_voltages),
+        )
+        for there, wanted, show in groups:
+            if there != wanted:
+                show(wanted)
+                break
+
+    def _show_voltages(self, count: int) -> None:
         self._analog = tuple(f"analog{number}" for number in range(1, count + 1))
         self.analog.show_count(count)
         self._voltages.setVisible(count > 0)
-        self.inputs.show_names(_names(self._setup.input_names, inputs))
-        self.outputs.show_names(_names(self._setup.output_names, outputs))
 
     def _show_axes(self, letters: str) -> None:
+        self._letters = letters
         for letter in tuple(self.axes):
             if letter not in letters:
                 gone = self.axes.pop(letter)
@@ -215,7 +229,6 @@ class DisplayPanel(Panel):
                 self.axes[letter] = AxisReadout(letter)
                 self.axes[letter].homed_told.connect(partial(self.homed_told.emit, letter))
             self._positions.insertWidget(index, self.axes[letter])
-        self.switches.show_axes(letters)
 
     def _lay_out(self) -> None:
         outer = QVBoxLayout(self)
@@ -261,6 +274,7 @@ class DisplayPanel(Panel):
         voltages.setContentsMargins(0, 0, 0, 0)
         self._add(voltages, "Analog inputs, V", self.analog)
         column.addWidget(self._voltages)
+        self._voltages.hide()
         column.addStretch(1)
 
     def _add(self, column: QVBoxLayout, heading: str, widget: QWidget, beside: QWidget | None = None) -> None:

@@ -26,7 +26,7 @@ class Levels(QWidget):
         super().__init__(parent)
         self._kind, self._height = kind, height
         self.lamps: list[Lamp] = []
-        self._names: list[str] = []
+        self.names: list[str] = []  # of the lamps there are
         self.editor: NameEditor | None = None  # while a name is edited
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
@@ -35,10 +35,10 @@ class Levels(QWidget):
 
     def show_names(self, names: Sequence[str]) -> None:
         """One lamp for each name (empty names included)."""
-        if list(names) == self._names:
+        if list(names) == self.names:
             return
         self._close_editor()
-        self._names = list(names)
+        self.names = list(names)
         while len(self.lamps) > len(names):
             lamp = self.lamps.pop()
             self._grid.removeWidget(lamp)

@@ -38,6 +38,11 @@ class SwitchTable(QWidget):
             self._grid.addWidget(label, row, 0)
         self._grid.addWidget(self.output, len(HEADS), 1, 1, -1)
 
+    @property
+    def letters(self) -> str:
+        """The axes that have a column."""
+        return "".join(letter for letter in "XYZW" if letter in self._cells)
+
     def show_axes(self, letters: str) -> None:
         """Which axes there are."""
         for letter in tuple(self._cells):

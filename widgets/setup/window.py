@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
-from PySide6.QtCore import QSize, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QDialog,
     QFrame,
@@ -44,6 +45,12 @@ class Online:
     serial: int | None = None
 
 
+P = TypeVar("P", bound=Page)
+KINDS: tuple[type[Page], ...] = (
+    ControllerPage, AxesPage, ServoPage, StepperPage, LimitsPage, NamesPage, NotesPage, ComparePage,
+)  # fmt: skip
+
+
 class SetupWindow(QDialog):
     """Not modal. `finished_setup(setup, keep, keys)`: the person is done; `keys` are the registers to be sent."""
 
@@ -62,18 +69,7 @@ class SetupWindow(QDialog):
         self.setProperty("helpPage", "Setup")
         self.setup, self._before, self._has_content = setup, setup, has_content
         self.comparing, self._who, self._online = Comparing(), "", Online()
-        self.controller, self.axes, self.servo, self.stepper = ControllerPage(), AxesPage(), ServoPage(), StepperPage()
-        self.limits, self.names, self.notes, self.compare = LimitsPage(), NamesPage(), NotesPage(), ComparePage()
-        self.pages: tuple[Page, ...] = (
-            self.controller,
-            self.axes,
-            self.servo,
-            self.stepper,
-            self.limits,
-            self.names,
-            self.notes,
-            self.compare,
-        )
+        self._made: dict[type[Page], Page] = {}
         self.list, self.stack = QListWidget(), QStackedWidget()
         self.file, self.problem, self.stop = QLabel(), quiet("warning"), StopButton()
         self.stop.hide()  # until something is connected: what is sent may move it
@@ -91,6 +87,77 @@ class SetupWindow(QDialog):
         self.show_file("not saved in a file", False)
         self.show_online(self._online)
         self._show()
+
+    # ---- its pages
+
+    def page(self, kind: type[P]) -> P:
+        """A page; made when it is first wanted."""
+        found = self._made.get(kind)
+        if found is None:
+            found = self._made[kind] = kind()
+            self._place(found, KINDS.index(kind))
+            found.edited.connect(self._edited)
+            if isinstance(found, ComparePage):
+                found.chosen.connect(self._choose)
+                found.all_chosen.connect(self._choose_all)
+            found.show_setup(self._shown, False)
+        assert isinstance(found, kind)
+        return found
+
+    def grow(self) -> None:
+        """One page more, with each tick: made all at once the window would stand still, made later a click would."""
+        missing = next((kind for kind in KINDS if kind not in self._made), None)
+        if missing is not None:
+            self.page(missing)
+
+    @property
+    def pages(self) -> tuple[Page, ...]:
+        """All of them, in the order of the list."""
+        return tuple(self.page(kind) for kind in KINDS)
+
+    @property
+    def controller(self) -> ControllerPage:
+        return self.page(ControllerPage)
+
+    @property
+    def axes(self) -> AxesPage:
+        return self.page(AxesPage)
+
+    @property
+    def servo(self) -> ServoPage:
+        return self.page(ServoPage)
+
+    @property
+    def stepper(self) -> StepperPage:
+        return self.page(StepperPage)
+
+    @property
+    def limits(self) -> LimitsPage:
+        return self.page(LimitsPage)
+
+    @property
+    def names(self) -> NamesPage:
+        return self.page(NamesPage)
+
+    @property
+    def notes(self) -> NotesPage:
+        return self.page(NotesPage)
+
+    @property
+    def compare(self) -> ComparePage:
+        return self.page(ComparePage)
+
+    def _place(self, page: Page, row: int) -> None:
+        """Instead of what kept its place; the Tab key goes from the list into it."""
+        kept, before = self.stack.widget(row), self.list
+        self.stack.insertWidget(row, page)
+        self.stack.removeWidget(kept)
+        kept.deleteLater()
+        self.stack.setCurrentIndex(self.list.currentRow())
+        for widget in page.findChildren(QWidget):
+            if widget.focusPolicy() & Qt.FocusPolicy.TabFocus:
+                QWidget.setTabOrder(before, widget)
+                before = widget
 
     # ---- what is shown
 
@@ -141,7 +208,7 @@ class SetupWindow(QDialog):
 
     def open_page(self, page: Page) -> None:
         """One of the pages in front."""
-        self.list.setCurrentRow(self.pages.index(page))
+        self.list.setCurrentRow(KINDS.index(type(page)))
 
     def problems(self) -> list[str]:
         """What has to be put right before it can be taken over, one sentence each."""
@@ -167,6 +234,7 @@ class SetupWindow(QDialog):
 
     def _turn(self, row: int) -> None:
         """Another page comes to the front."""
+        self.page(KINDS[row])
         self._show()
         self.stack.setCurrentIndex(row)
 
@@ -193,11 +261,15 @@ class SetupWindow(QDialog):
 
     # ---- inside
 
+    @property
+    def _shown(self) -> Shown:
+        return Shown(self.setup, self.comparing.readings, self._online.serial)
+
     def _show(self) -> None:
-        shown = Shown(self.setup, self.comparing.readings, self._online.serial)
-        for number, page in enumerate(self.pages):
-            page.show_setup(shown, number == self.list.currentRow())
-        if self.comparing.readings and self.pages[self.list.currentRow()] is self.compare:
+        front = KINDS[self.list.currentRow()]
+        for kind, page in self._made.items():
+            page.show_setup(self._shown, kind is front)
+        if self.comparing.readings and front is ComparePage:
             self.compare.show_rows(self.comparing.rows(self.setup), self.comparing.choices, self._who)
         self._mark_pages()
         found = self.problems()
@@ -212,14 +284,10 @@ class SetupWindow(QDialog):
     def _mark_pages(self) -> None:
         """Behind the page of the controller's values: how many differ."""
         count = len(self.comparing.rows(self.setup)) if self.comparing.readings else 0
-        item = self.list.item(self.pages.index(self.compare))
-        item.setText(f"{self.compare.title} ({count})" if count else self.compare.title)
+        item = self.list.item(KINDS.index(ComparePage))
+        item.setText(f"{ComparePage.title} ({count})" if count else ComparePage.title)
 
     def _join(self) -> None:
-        for page in self.pages:
-            page.edited.connect(self._edited)
-        self.compare.chosen.connect(self._choose)
-        self.compare.all_chosen.connect(self._choose_all)
         self.list.currentRowChanged.connect(self._turn)
         for button, signal in self.file_buttons.values():
             button.clicked.connect(signal)
@@ -265,11 +333,11 @@ class SetupWindow(QDialog):
         self.list.setAccessibleName("Pages of the setup")
         self.list.setFixedWidth(176)
         self.list.setStyleSheet("QListWidget::item { padding-left: 8px; }")
-        for page in self.pages:
-            item = QListWidgetItem(page.title)
+        for kind in KINDS:
+            item = QListWidgetItem(kind.title)
             item.setSizeHint(QSize(0, look().control + 4))
             self.list.addItem(item)
-            self.stack.addWidget(page)
+            self.stack.addWidget(QWidget())  # keeps the place of a page
         self.list.setCurrentRow(0)
         head = QHBoxLayout()
         for button, _ in self.file_buttons.values():
@@ -297,4 +365,5 @@ class SetupWindow(QDialog):
         column.addWidget(self.problem)
         column.addWidget(self.question)
         column.addLayout(foot)
+        self.page(KINDS[0])
         self.resize(1080, 740)
