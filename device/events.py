@@ -46,6 +46,14 @@ class Event:
     cause: str = ""
     step: str = ""
     machine: str = ""
+    running: Mapping[str, int] = field(default_factory=dict)  # the line of each thread that ran then, by its number
+
+    @property
+    def lines(self) -> tuple[tuple[int | None, int], ...]:
+        """Threads with their lines: the one it was told of, else all that ran."""
+        if self.line is not None:
+            return ((self.thread, self.line),)
+        return tuple((int(thread), line) for thread, line in sorted(self.running.items()))
 
     @property
     def place(self) -> float | None:
@@ -54,7 +62,8 @@ class Event:
 
     def holds(self, words: Iterable[str]) -> bool:
         """Whether every word stands somewhere in it, in any case."""
-        whole = " ".join((self.what, self.text, self.axis, self.cause, self.step, self.machine)).casefold()
+        lines = (f"thread {thread} line {line}" for thread, line in self.lines)
+        whole = " ".join((self.what, self.text, self.axis, self.cause, self.step, self.machine, *lines)).casefold()
         return all(word.casefold() in whole for word in words)
 
 

@@ -26,6 +26,7 @@ TOLD = re.compile(r"\?(\d{3}) (.*)")
 FORWARD, REVERSE, STOP_COMMAND, OFF_ON_ERROR = 2, 3, 4, 8
 BURNS = frozenset({"BN", "BP", "BV"})
 LOOK_S = 0.2  # between two looks
+RECENT_S = 1.5  # so long ago a thread was seen running that is told with what happened
 HAND_S = 2.0  # so long a stop belongs to the hand that let go
 
 
@@ -39,6 +40,7 @@ class EventsHeard:
         self.events, self._wall = events, wall
         self._codes: dict[str, float] = {}
         self._off: dict[str, float] = {}
+        self._seen: dict[str, tuple[int, float]] = {}  # by thread: the line it was seen on, and when
         self._error = 0.0
         self._line = 0
         self._burning = ""
@@ -49,7 +51,7 @@ class EventsHeard:
 
     def begin(self, controller: Controller) -> None:
         """Another controller; what it did before is not news."""
-        self._codes, self._off, self._unexplained = {}, {}, []
+        self._codes, self._off, self._seen, self._unexplained = {}, {}, {}, []
         self._error, self._burning, self._stop, self._line = -1.0, "", 0, 0
         self._began, self._watches = controller.clock(), ()
         self._looked = self._hand_until = 0.0
@@ -79,10 +81,9 @@ class EventsHeard:
         found = TOLD.match(notice.text)
         line = int(found.group(1)) if found else None
         text = f"Error in line {line}: {found.group(2)}" if found else notice.text
-        row = controller.last()
-        threads = {n: row.value(f"thread{n}") for n in range(4) if row.value(f"thread{n}") >= 0}
+        threads = self._running(controller)
         same = [n for n, at in threads.items() if at == line] or list(threads)
-        thread = same[0] if len(same) == 1 else None
+        thread = int(same[0]) if len(same) == 1 else None
         event = self._add(controller, What.PROGRAM, text, thread=thread, line=line, step=USUAL_STEP)
         self._unexplained.append((event.number, notice.at))
 
@@ -107,6 +108,7 @@ class EventsHeard:
             return
         self._looked = now
         self._watch(controller)
+        self._see_threads(controller)
         row = controller.last()
         for letter in controller.axes:
             self._look_at_axis(controller, row, letter)
@@ -117,7 +119,8 @@ class EventsHeard:
         keys = tuple(f"{name}.{letter.lower()}" for letter in controller.axes for name in WATCHED)
         if keys != self._watches:
             self._watches = keys
-            controller.watch("events", (*keys, "error_code"))
+            threads = (f"thread{n}" for n in range(_threads(controller)))
+            controller.watch("events", (*keys, *threads, "error_code"))
 
     def _look_at_axis(self, controller: Controller, row: Row, letter: str) -> None:
         code, off = f"stop_code.{letter.lower()}", f"motor_off.{letter.lower()}"
@@ -185,6 +188,19 @@ class EventsHeard:
 
     # ----------------------------------------------------------------- inside
 
+    def _see_threads(self, controller: Controller) -> None:
+        """The line each thread was seen on; what ends a thread is told after it has ended."""
+        row = controller.last()
+        for number in range(_threads(controller)):
+            line, at = row.value(f"thread{number}"), row.time(f"thread{number}")
+            if line >= 0 and at > self._began:
+                self._seen[str(number)] = int(line), at
+
+    def _running(self, controller: Controller) -> dict[str, int]:
+        """The threads that ran just now, with their lines."""
+        self._see_threads(controller)
+        return {number: line for number, (line, at) in self._seen.items() if controller.clock() - at < RECENT_S}
+
     def _forget(self, controller: Controller) -> None:
         self._codes, self._off, self._error = {}, {}, -1.0
         self._began = controller.clock()
@@ -197,7 +213,14 @@ class EventsHeard:
         places = {letter: row.value(f"position.{letter.lower()}") for letter in controller.axes}
         known = {letter: place for letter, place in places.items() if not math.isnan(place)}
         machine = controller.identity.text if controller.identity is not None else ""
-        return self.events.add(Event(0, self._wall(), what, text, axis, known, thread, line, cause, step, machine))
+        running = self._running(controller) if line is None else {}
+        return self.events.add(
+            Event(0, self._wall(), what, text, axis, known, thread, line, cause, step, machine, running)
+        )
+
+
+def _threads(controller: Controller) -> int:
+    return controller.model.threads if controller.model is not None else 1
 
 
 def _burned(line: str) -> str:

@@ -85,6 +85,26 @@ def test_a_line_is_shown_where_it_is_of_the_open_program(stage: Stage) -> None:
     assert stage.studio.program.current_step() == step
 
 
+def test_a_stop_tells_where_all_axes_were_and_what_ran(stage: Stage) -> None:
+    """The program waits at line 2 for its input; a double click asks for that line."""
+    rig = stage.connect("simulator", "ssc2")
+    rig.start("#A\nWT 100\nAI 1\nEN")
+    rig.simulation.stimulus("in1", 0)
+    stage.go(60)
+    stage.controller.stop()
+    stage.until(lambda: "STOP was pressed" in words(stage))
+    stage.go(30)
+    panel, told = stage.studio.at_machine.event_list, []
+    row = next(number for number, event in enumerate(panel.rows) if event.what is What.STOP)
+    where = panel.table.item(row, 2).text()
+    assert "X 0" in where and "Y 0" in where and where.endswith("thread 0 line 2")
+    panel.line_wanted.connect(told.append)
+    place = panel.table.visualItemRect(panel.table.item(row, 2)).center()
+    QTest.mouseClick(panel.table.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    QTest.mouseDClick(panel.table.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    assert told == [2]
+
+
 def test_events_survive_the_studio(stage: Stage, tmp_path: Path) -> None:
     stage.connect("simulator", "ssc1")
     stage.controller.stop()

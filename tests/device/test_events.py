@@ -105,6 +105,25 @@ def test_an_error_of_a_program_with_its_line_and_reason() -> None:
     assert heard.events.search(kinds=[What.REFUSED]) == []
 
 
+@pytest.mark.parametrize("what", [What.LIMIT, What.STOP])
+def test_what_the_program_was_at_is_kept_with_what_happened(what: What) -> None:
+    """Line 4 waits for the move; nothing ran before."""
+    heard = Heard()
+    heard.result(heard.controller.download("#A\nSH\nSP 20000;PR 1000000\nBG X\nAM X\nEN").future)
+    heard.listen(1.0)
+    assert heard.one(What.DOWNLOAD).lines == ()
+    heard.controller.execute("A", anyway=True)
+    heard.listen(2.0)
+    if what is What.STOP:
+        heard.controller.stop()
+    else:
+        heard.simulation.stimulus("fls_x", 0)
+    heard.listen(2.5)
+    event = heard.one(what)
+    assert event.lines == ((0, 4),) and set(event.places) == set("XY")
+    assert heard.events.search("thread 0 line 4", kinds=[what]) == [event]
+
+
 def test_a_command_that_is_refused() -> None:
     heard = Heard()
     assert not heard.result(heard.controller.ask("SP 99999999")).accepted

@@ -145,16 +145,16 @@ class EventsPanel(Panel):
                 item.setIcon(icon(*ICONS[event.what]))
 
     def _where(self, event: Event) -> str:
+        """The axis concerned, or else all of them, and the lines of the program."""
         parts = []
-        if event.axis and event.place is not None and self._setup is not None:
-            axis = self._setup.axis(event.axis)
-            parts.append(f"{event.axis} {shown(event.place, axis)} {unit_of(axis)}")
-        elif event.axis:
-            parts.append(event.axis)
-        if event.thread is not None:
-            parts.append(f"thread {event.thread}")
-        if event.line is not None:
-            parts.append(f"line {event.line}")
+        for letter, place in ((event.axis, event.place),) if event.axis else event.places.items():
+            if place is not None and self._setup is not None:
+                axis = self._setup.axis(letter)
+                parts.append(f"{letter} {shown(place, axis)} {unit_of(axis)}")
+            else:
+                parts.append(letter)
+        for thread, line in event.lines:
+            parts.append(f"line {line}" if thread is None else f"thread {thread} line {line}")
         return ", ".join(parts)
 
     def help_page(self) -> str:
@@ -173,8 +173,7 @@ class EventsPanel(Panel):
             set_text(self.words_, words or time.strftime("%A, %d %B %Y, %H:%M:%S", self._local(event.at)))
 
     def _opened(self, row: int, column: int) -> None:
-        line = self.rows[row].line
-        if line is not None:
+        for _, line in self.rows[row].lines[:1]:
             self.line_wanted.emit(line)
 
     def _lay_out(self) -> None:
