@@ -10,16 +10,33 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tests.dialog_pictures import PANEL
+
 if TYPE_CHECKING:
-    from PySide6.QtWidgets import QWidget
+    from PySide6.QtWidgets import QApplication, QWidget
 
     from tests.stage import Stage
 
 SCALES = (1, 2)
 THEMES = ("light", "dark")
+AT_ONCE = 2  # processes
+QUIET = "This plugin does not support"  # what the off-screen platform says again and again
+# scenes that pages of the help show, in light colours: the picture's name, and the panel that is cut out of the window
+SHOWN = {
+    "panel-x-y-view": ("x-y-view", "X-Y view"),
+    "panel-jog": ("jog", "Jog"),
+    "panel-operator-panel": ("operator-terminal", "Operator terminal"),
+    "panel-variables": ("variables", "Variables"),
+    "scope-capture": ("scope", ""),
+    "tuner-manual": ("tuner", "Tuner"),
+    "commissioning-polarity": ("bring-an-axis-to-life", ""),
+    "panel-teach": ("teach", "Teach"),
+    "panel-display-codes": ("display", "Display"),
+}
 
 
 def main(arguments: list[str]) -> int:
@@ -36,11 +53,15 @@ def main(arguments: list[str]) -> int:
         return 0
     out = Path(arguments[0] if arguments else "pictures")
     out.mkdir(parents=True, exist_ok=True)
-    for theme in THEMES:
+    with ThreadPoolExecutor(AT_ONCE) as several:
         for scale in SCALES:
-            _in_a_process("--one", str(out), theme, str(scale), scale=scale)
+            list(several.map(lambda theme, scale=scale: _one(out, theme, scale), THEMES))  # type: ignore[misc]
     print(f"{len(list(out.glob('*.png')))} pictures in {out}")
     return 0
+
+
+def _one(out: Path, theme: str, scale: int) -> None:
+    _in_a_process("--one", str(out), theme, str(scale), scale=scale)
 
 
 def _in_a_process(*arguments: str, scale: int) -> None:
@@ -54,25 +75,34 @@ def _in_a_process(*arguments: str, scale: int) -> None:
 
 
 def take(out: Path, theme: str, scale: int) -> None:
-    """Everything in one theme at one scale."""
-    from PySide6.QtWidgets import QApplication
-
-    application = QApplication.instance() or QApplication([])
+    """Everything in one theme at one scale; what is larger than the least screen is an error, told at the end."""
+    application, large = _application(), []
     with tempfile.TemporaryDirectory() as folder:
         for name, widget in scenes(Path(folder), theme):
             settle()
             widget.grab().save(str(out / f"{name}-{theme}-{scale}00.png"))
+            if widget.width() > PANEL[0] or widget.height() > PANEL[1]:
+                large.append(f"{name}: {widget.width()} x {widget.height()}")
     del application
+    if large:
+        raise SystemExit(f"larger than {PANEL[0]} x {PANEL[1]}, {theme}: {', '.join(large)}")
+
+
+def _application() -> QApplication:
+    from PySide6.QtCore import qInstallMessageHandler
+    from PySide6.QtWidgets import QApplication
+
+    qInstallMessageHandler(lambda _kind, _where, words: None if QUIET in words else print(words, file=sys.stderr))
+    found = QApplication.instance()
+    return found if isinstance(found, QApplication) else QApplication([])
 
 
 def take_shown(theme: str) -> None:
-    """The pictures of README and help: the studio with the simulator running the wire cutter."""
-    from PySide6.QtWidgets import QApplication
-
+    """The pictures of README and help: the studio with the simulator running the wire cutter; in light the panels."""
     import resources
     from tests.stage import make_studio
 
-    application = QApplication.instance() or QApplication([])
+    application = _application()
     with tempfile.TemporaryDirectory() as folder:
         stage = make_studio(Path(folder), theme=theme)
         stage.studio.window.resize(1280, 800)
@@ -82,6 +112,12 @@ def take_shown(theme: str) -> None:
         settle()
         name = "program" if theme == "light" else f"program-{theme}"
         stage.studio.window.grab().save(str(resources.path(f"help/pictures/{name}.png")))
+        for scene, widget in _plane(stage) if theme == "light" else ():
+            settle()
+            if scene in SHOWN:
+                name, panel = SHOWN[scene]
+                shown = stage.studio.window.docks[panel] if panel else widget
+                shown.grab().save(str(resources.path(f"help/pictures/{name}.png")))
         stage.studio.close()
     del application
 

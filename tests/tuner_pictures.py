@@ -13,7 +13,7 @@ from codegen.setup_axis import Unit
 from tests.stage import Stage
 from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MANUAL, MODEL, TunerPanel
 
-PATIENCE_S = 60
+PATIENCE_S = 120  # of the processor, so that other work on the computer does not count
 
 
 def tuner_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
@@ -73,8 +73,8 @@ def _run(stage: Stage, panel: TunerPanel, button: QWidget | None = None) -> None
 
 def _until(stage: Stage, true: Callable[[], object]) -> None:
     """Where a thread of its own works as well."""
-    end = time.monotonic() + PATIENCE_S
+    end = time.process_time() + PATIENCE_S
     while not true():
-        assert time.monotonic() < end
+        assert time.process_time() < end
         stage.go(1)
         time.sleep(0.001)
