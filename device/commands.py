@@ -27,6 +27,7 @@ T = TypeVar("T")
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
 ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
+SETTLING = "settling"  # who sends what was in effect before a STOP: that starts nothing
 SLOW = {"BP": 15.0, "BV": 5.0, "BN": 3.0, "RS": 5.0}
 USUAL_S = 1.0
 
@@ -215,7 +216,7 @@ def sent(controller: Controller, data: bytes, source: str) -> None:
     """Keeps account of what a line changes: a program started, edited, erased; the port turned into a data port."""
     if source in ("poll", "stop") or not data.endswith(b"\r") or not data.isascii():
         return
-    if controller.stop_state is StopState.STOPPED and not only_reads(data):
+    if controller.stop_state is StopState.STOPPED and source != SETTLING and not only_reads(data):
         controller.show_stop(StopState.READY)
     for statement in parse_line(data[:-1].decode("ascii")).statements:
         if not isinstance(statement, nodes.Command):

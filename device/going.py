@@ -98,6 +98,10 @@ class Going:
         done = " ".join(ended(letter, code) for letter, code in codes.items())
         return Ended(places, codes, f"{self.plan.title}." if self.plan.defines else done)
 
+    @property
+    def as_before(self) -> list[str]:
+        """What sets speeds and ramps as they were."""
+        return [f"{name} {at(axis, value) if axis else value}" for name, axis, value in self.former]
+
     def _put_back(self) -> Steps[None]:
-        commands = [f"{name} {at(axis, value) if axis else value}" for name, axis, value in self.former]
-        yield from self.exchange.put_back(commands)
+        yield from self.exchange.put_back(self.as_before)

@@ -105,11 +105,6 @@ class Exchange:
                 lines.append(command)
         return lines
 
-    def why(self) -> Steps[str]:
-        """The error code that the last refusal left, in words."""
-        code = yield from self.code()
-        return f"error {code}, {ERROR_TEXTS.get(code, 'unknown error')}" if code else "the controller did not take it"
-
     def code(self) -> Steps[int]:
         """The error code that the last refusal left; 0 where it is not told."""
         answer = yield from fence(self.nonces)
@@ -130,6 +125,11 @@ class Ran:
 def at(axis: str, value: object) -> str:
     """A number at the place of its axis: `,,500` for Z."""
     return "," * "XYZW".index(axis) + str(value)
+
+
+def ramps_of(axis: str, former: Sequence[int]) -> list[str]:
+    """What sets SP, AC and DC of an axis; nothing where they are not known."""
+    return [f"{name} {at(axis, value)}" for name, value in zip(("SP", "AC", "DC"), former, strict=False)]
 
 
 def not_started(code: int) -> str:
@@ -224,6 +224,11 @@ class Lease:
         if not sentence:
             yield from self._stop()
         return (yield from self._stand(let_go, sentence))
+
+    @property
+    def as_before(self) -> list[str]:
+        """What sets speed and ramps as they were; nothing where they were not read yet."""
+        return ramps_of(self.axis, self._former)
 
     def _signed(self, counts: int) -> int:
         return counts if self.speed >= 0 else -counts
@@ -386,10 +391,7 @@ class Lease:
         self._velocity = 0.0
         if not stands:
             raise LinkError(f"Axis {self.axis} was told to stop but still moves. Press STOP.")
-        names = ("AC", "DC", "SP")
-        sp, ac, dc = self._former
-        former = [f"{name} {at(self.axis, value)}" for name, value in zip(names, (ac, dc, sp), strict=True)]
-        yield from self.exchange.put_back(former)
+        yield from self.exchange.put_back(self.as_before)
         run_on = abs(self._place - start)
         return Ran(self.axis, self._place, run_on, seconds, sentence or f"Axis {self.axis} stopped.")
 

@@ -30,16 +30,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from codegen.fields import Dimension
+from device.commands import SETTLING
 from device.going import Ended, Going
 from device.jog import Places, Plan, axes_driven, told
 from device.lease import COUNTS, EXCHANGE, FLAG, LINE_S, Exchange, Lease, Ran, StopNeeded
 from device.poll import requests
+from device.quiet import until_stopped
 from device.steer import SLOWEST, Drive, Drove, Track
-from device.tasks import LinkError, NotAllowed, Priority, Steps, Wait
+from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped, Wait
 
 if TYPE_CHECKING:
     from codegen.setup import Setup
@@ -63,6 +66,7 @@ class Motion:
         self._c = controller
         self._now: Lease | Going | Drive | None = None
         self._ended: Future[Any] | None = None
+        self._settling: Future[Any] | None = None  # speeds and ramps put back behind a STOP
         self.setup: Setup | None = None
         self.taken = ""  # why nothing may be moved by hand: an axis is being tuned
         self.latch = False
@@ -237,7 +241,7 @@ class Motion:
         return future
 
     def _in_turn(self, now: Lease | Going | Drive, before: Future[Any] | None, steps: Steps[T]) -> Steps[T]:
-        while before is not None and not before.done():
+        while any(each is not None and not each.done() for each in (before, self._settling)):
             yield Wait(0.01)
         if not now.held:
             steps.close()
@@ -249,8 +253,17 @@ class Motion:
         except StopNeeded:
             self._c.stop()
             raise
+        except Stopped:
+            self._settling = self._c.run(self._as_before(now), Priority.USER, SETTLING)
+            raise
         finally:
             poller.brief = 0
+
+    def _as_before(self, now: Lease | Going | Drive) -> Steps[None]:
+        """Once STOP is proved speeds and ramps are as they were: what runs next may brake by them."""
+        with suppress(LinkError):
+            yield from until_stopped(self._c)
+            yield from now.exchange.put_back(now.as_before)
 
     def _brief(self) -> int:
         """Columns of a poll while somebody holds: its end must not keep a release waiting."""

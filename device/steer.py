@@ -29,6 +29,7 @@ from device.lease import (
     at,
     ended,
     not_started,
+    ramps_of,
 )
 from device.tasks import LinkError, NotAllowed, Send, Steps, Wait
 from device.wire import Answer, Frame, Kind, Shape, framed
@@ -328,6 +329,11 @@ class Drive:
         if going:
             raise LinkError(f"The stop of {going} was not confirmed; the moves end by themselves. Press STOP.")
 
+    @property
+    def as_before(self) -> list[str]:
+        """What sets speeds and ramps as they were; nothing where they were not read yet."""
+        return [line for track in self.tracks.values() for line in ramps_of(track.axis, track.former)]
+
     def _stand(self) -> Steps[None]:
         """Waits for the end of the deceleration; then speeds and ramps are as they were."""
         end = self.exchange.clock() + max(track.stopping_s for track in self.tracks.values()) * 1.5 + 2.0
@@ -345,5 +351,4 @@ class Drive:
             yield Wait(LOOK_S)
         for track in self.tracks.values():
             track.moving = False
-            names = zip(("SP", "AC", "DC"), track.former, strict=True)
-            yield from self.exchange.put_back([f"{name} {at(track.axis, value)}" for name, value in names])
+            yield from self.exchange.put_back(ramps_of(track.axis, track.former))

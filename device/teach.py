@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from codegen.twoletter.problems import ERROR_TEXTS
 from device.going import Going
 from device.jog import Places, Plan, told
 from device.lease import AT_TARGET, CODE, COUNTS, FLAG, LOOK_S, Exchange, at, ended
@@ -323,7 +324,8 @@ class PlayBack(Going):
     def _taken(self, row: int, line: str) -> Steps[None]:
         answer = yield from self.exchange.prove(line)
         if answer.kind is not Kind.ACCEPTED:
-            why = yield from self.exchange.why()
+            code = yield from self.exchange.code()
             yield from self._stop()
             yield from self.exchange.put_back(["CS"])  # segments that wait belong to no move any more
+            why = f"error {code}, {ERROR_TEXTS.get(code, 'unknown error')}"
             raise RowEnded(f"Play-back ended in row {row + 1}: “{line}” was refused: {why}.")

@@ -148,6 +148,28 @@ def test_stop_ends_a_line() -> None:
     assert bench.controller.motion.busy == ""
 
 
+@pytest.mark.parametrize("how", ["hold", "stick", "move"])
+def test_after_stop_speeds_and_ramps_are_as_they_were(how: str) -> None:
+    """What runs next, and the next ST, may brake by them: DC 20480 takes 12 times as long as DC 256000."""
+    bench, weak = bench_on("ssc2"), 20_480
+    motion, both = bench.controller.motion, {"X": weak, "Y": weak}
+    future: Future[object] = {
+        "hold": lambda: motion.hold("X", 2000, weak, weak, "hand"),
+        "stick": lambda: motion.drive({"X": 2000, "Y": 1000}, both, both, "hand"),
+        "move": lambda: motion.go(jog.by("X", 50_000, 2000, weak, weak)),
+    }[how]()  # type: ignore[no-untyped-call]
+    while not bench.simulation.state()["axes"]["X"]["moving"]:
+        bench.run(0.02)
+        motion.renew("hand")
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
+    assert isinstance(future.exception(), LinkError) and not motion.busy
+    bench.run(0.3)
+    assert bench.controller.stop_state is StopState.STOPPED  # nothing was sent that moves
+    values = bench.result(bench.controller.read("_SPX", "_ACX", "_DCX", "_SPY", "_ACY", "_DCY"))
+    assert values == (25_000, 256_000, 256_000) * 2  # the factory's
+
+
 def test_zero() -> None:
     bench = bench_on("ssc2")
     go(bench, jog.by("X", 1234, 20_000, RAMP, RAMP))
