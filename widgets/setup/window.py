@@ -155,7 +155,7 @@ class SetupWindow(QDialog):
         kept.deleteLater()
         self.stack.setCurrentIndex(self.list.currentRow())
         for widget in page.findChildren(QWidget):
-            if widget.focusPolicy() & Qt.FocusPolicy.TabFocus:
+            if widget.window() is page.window() and widget.focusPolicy() & Qt.FocusPolicy.TabFocus:  # no lists of boxes
                 QWidget.setTabOrder(before, widget)
                 before = widget
 
