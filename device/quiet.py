@@ -62,9 +62,9 @@ def rest(c: Controller, axis: str) -> Steps[None]:
         told = yield from exact(c.nonces, [f"_BG{axis}"], c.model.columns)
 
 
-def until_stopped(c: Controller) -> Steps[None]:
-    """After STOP nothing is sent before its proof; without it the former values stay on disk for later."""
-    end = c.clock() + STOPPED_S
+def until_stopped(c: Controller, deaf_s: float = 0.0) -> Steps[None]:
+    """After STOP nothing is sent before its proof, which a controller that hears nothing gives `deaf_s` later."""
+    end = c.clock() + STOPPED_S + deaf_s
     while c.stop_state in (StopState.STOPPING, StopState.NOT_CONFIRMED):
         if c.clock() > end:
             raise LinkLost("STOP was not confirmed; the former values are kept, and offered when the axis is at rest.")

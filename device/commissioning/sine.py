@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 T = TypeVar("T")
+LONGEST_S = 15.0  # that BS or BZ may take: ten seconds (l.739), and more than the longest asked for here
+ZERO_S = 3.0  # that BZ takes
 LARGEST_CYCLE = MOST - 100  # counts: BS turns one whole cycle each way
 
 
@@ -68,7 +70,7 @@ def try_phases(c: Controller, phases: Phases) -> Steps[str]:
     if phases.halls:
         yield from said(c, f"BI {phases.halls}")
     line = f"BS {float(phases.volts):g},{phases.time_ms}"
-    answer = yield from _field(c, axis, proved(c.nonces, line, max(10.0, 2 * phases.seconds), REFUSAL_S))  # l.739
+    answer = yield from _field(c, axis, proved(c.nonces, line, LONGEST_S, REFUSAL_S), phases.seconds)
     if answer.kind is Kind.SILENT:
         raise LinkLost(f"The controller did not answer “{line}”.")
     return answer.text if answer.kind is Kind.ACCEPTED else ""
@@ -80,7 +82,7 @@ def drive_to_zero(c: Controller, axis: str, volts: Fraction, offset: int) -> Ste
         raise NotAllowed("Not moved: the voltage lies above 0, and at most at 3 V.")
     yield from _before_field(c, axis)
     yield from said(c, f"BB {offset}")
-    reply = yield from _field(c, axis, commands.typed(c, f"BZ {float(volts):g}", 15.0))
+    reply = yield from _field(c, axis, commands.typed(c, f"BZ {float(volts):g}", LONGEST_S), ZERO_S)
     told = yield from exact(c.nonces, [f"_BZ{axis}"], columns_of(c))
     return reply, None if told[0] is None else told[0] // ONE
 
@@ -106,13 +108,15 @@ def _before_field(c: Controller, axis: str) -> Steps[None]:
     yield from switch_off(c, axis)
 
 
-def _field(c: Controller, axis: str, steps: Steps[T]) -> Steps[T]:
-    """What turns the field; whatever comes of it, the motor is off afterwards."""
+def _field(c: Controller, axis: str, steps: Steps[T], deaf_s: float) -> Steps[T]:
+    """What turns the field, and lets nothing be heard for `deaf_s`; whatever comes of it, the motor is off then."""
     try:
         result = yield from steps
-    except Stopped:
-        yield from until_stopped(c)
+    except Stopped as stop:
+        yield from until_stopped(c, deaf_s)
         yield from power_off(c, axis)
-        raise
+        raise Stopped(
+            "STOP was pressed; the controller heard it when the motor had turned. The motor is off."
+        ) from stop
     yield from power_off(c, axis)
     return result
