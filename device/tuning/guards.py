@@ -54,13 +54,14 @@ class Guard:
     reverse: int
     error: int
     torque: float
+    sure: int = 0  # counts: so large an error there will be for a moment, by the step itself
 
     @staticmethod
     def around(axis: str, step: int, margin: int, torque: float) -> Guard:
         """For steps to and fro between here and `step` counts away, with a margin for overshoot on either side."""
         largest = int(COMMANDS["ER"].high or 0)
         error = min(largest, math.ceil(abs(step) * ERROR_SHARE) + 10)
-        return Guard(axis, max(step, 0) + margin, max(-step, 0) + margin, error, torque)
+        return Guard(axis, max(step, 0) + margin, max(-step, 0) + margin, error, torque, abs(step))
 
     @property
     def problem(self) -> str:
@@ -118,6 +119,11 @@ def _free(c: Controller, model: Model, axis: str) -> Steps[None]:
 def _inside(guard: Guard, former: Former) -> None:
     """The stated travel must lie between the limits there are: guards never open one."""
     place, forward, reverse = former.place, former.values["FL"] // ONE, former.values["BL"] // ONE
+    if guard.sure >= former.values["ER"] // ONE:
+        raise NotAllowed(
+            f"Not started: the step of {guard.sure} counts is not smaller than the error limit ER of "
+            f"{former.values['ER'] // ONE} counts; the motor would go off. Take a smaller step, or set a larger ER."
+        )
     if place + guard.forward > min(forward, FURTHEST) or place - guard.reverse < max(reverse, -FURTHEST):
         raise NotAllowed(
             f"Not started: from {place} counts the axis would go to between {place - guard.reverse} and "

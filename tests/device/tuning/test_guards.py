@@ -94,6 +94,9 @@ def test_guards_never_open_a_limit(tmp_path: Path) -> None:
     for far in (Guard("X", 100, 501, 900, 4.0), Guard("X", 90001, 0, 900, 4.0)):
         with pytest.raises(NotAllowed, match="beyond its software limits"):
             rig.result(begin(rig, tmp_path, body, far))
+    for step in (1200, -1500):
+        with pytest.raises(NotAllowed, match="not smaller than the error limit ER of 1200 counts"):
+            rig.result(begin(rig, tmp_path, body, Guard.around("X", step, 100, 4.0)))
     assert len(seen) == 1 and not list(tmp_path.iterdir())
 
 
