@@ -123,7 +123,7 @@ class ByHand(QObject):
             if isinstance(error, NeedsConfirmation):
                 self._panel.show_result("")
                 answers = [("Move anyway", lambda: self.go(plan, confirmed=True))]
-                self._ask("Move all the same?", str(error), answers, "warning")
+                self._ask("Move anyway?", str(error), answers, "warning")
             elif failure := failure_of(future):
                 self._panel.show_result(failure, good=False)
             else:

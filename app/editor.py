@@ -196,7 +196,7 @@ class Editor(QObject):
         self._sending = None
         if found.error is not None:
             words = f"Line {found.error.line}: {found.error.message}"
-            answers = [("Download all the same", lambda: self._send(text))]
+            answers = [("Download anyway", lambda: self._send(text))]
             self._ask("Download code with errors?", words, answers, "warning")
         else:
             self._send(text)

@@ -46,7 +46,7 @@ def live(facts: Facts) -> str:
 
 def control(facts: Facts) -> str:
     """Permission to change something."""
-    return live(facts) or ("" if facts.control else "Watching only: switch to Control first.")
+    return live(facts) or ("" if facts.control else "This is Watch: switch to Control first.")
 
 
 def quiet(facts: Facts) -> str:

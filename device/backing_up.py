@@ -236,7 +236,7 @@ def _size(c: Controller, name: str) -> Steps[int]:
 def restore_steps(c: Controller, backup: Backup, job: Job[Restored]) -> Steps[Restored]:
     """Puts a backup back: motors off first and at the end, program last, everything read back and compared."""
     if not c.control:
-        raise NotAllowed("Not restored: this is Watch. Take Control first.")
+        raise NotAllowed("Not restored: this is Watch. Switch to Control first.")
     model = yield from quiet(c, "Not restored")
     reasons = misfits(backup, model)
     if reasons:

@@ -175,7 +175,7 @@ class Recording:
     def _allowed(self) -> Model:
         c = self._c
         if not c.control:
-            raise NotAllowed(f"{NOT}: this is Watch. Take Control first; a capture writes arrays in the controller.")
+            raise NotAllowed(f"{NOT}: this is Watch. Switch to Control first; a capture writes arrays there.")
         if c.model is None:
             raise NotAllowed(f"{NOT}: the controller's model is not known.")
         if c.resting():

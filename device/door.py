@@ -128,7 +128,7 @@ class Door:
         if MASTER_RESET in data and not self.erasing:
             return "Control-R control-S erases the controller's memory; it is sent only by its own confirmed action."
         if not self.control and not ends and data != self._choose_unit and not only_reads(data):
-            return "Not sent: this is Watch. Take Control to move, set or download."
+            return "Not sent: this is Watch. Switch to Control to move, set or download."
         if b"%" in data and data != self._choose_unit and not stored and ADDRESSES.search(data):
             return "Another address of a daisy chain is chosen where you connect: everything shown here is of this one."
         trippoint = "" if stored else waits(data)

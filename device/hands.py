@@ -83,7 +83,7 @@ class Memory:
         c = self._c
         c.motion.let_go()
         if not c.control:
-            raise NotAllowed("Not downloaded: this is Watch. Take Control first.")
+            raise NotAllowed("Not downloaded: this is Watch. Switch to Control first.")
         if c.resting() and not c.waiting.unfinished:
             raise DownloadFailed("Not downloaded: a program is running. Halt it first.")
         try:

@@ -278,7 +278,7 @@ class Motion:
         """Why nothing may be moved by hand now."""
         c = self._c
         if not c.control:
-            return "this is Watch. Take Control first."
+            return "this is Watch. Switch to Control first."
         if self.taken:
             return self.taken
         if self._busy() and self._now is not None and self._now.held and self._now.owner != owner:
@@ -355,10 +355,10 @@ class Motion:
             if unknown:
                 place = told(plan.ghost(places)[unknown[0]], unknown[0], self.setup)
                 raise NeedsConfirmation(
-                    f"Axis {unknown[0]} was not seen homed: {place} may be anywhere. Move there all the same?"
+                    f"Axis {unknown[0]} was not seen homed: {place} may be anywhere. Move there anyway?"
                 )
             if passes := plan.passes(places, self.setup):
-                raise NeedsConfirmation(f"{passes} Move all the same?")
+                raise NeedsConfirmation(f"{passes} Move anyway?")
         return (yield from going.steps())
 
 

@@ -24,7 +24,7 @@ STOPPED_S = 6.0  # for STOP to be proved before anything is put back
 def ready(c: Controller, axis: str, what: str = "Not started") -> Model:
     """The controller's model where an axis of it may be worked with at all; NotAllowed with the reason otherwise."""
     if not c.control:
-        raise NotAllowed(f"{what}: this is Watch. Take Control first.")
+        raise NotAllowed(f"{what}: this is Watch. Switch to Control first.")
     if c.model is None:
         raise NotAllowed(f"{what}: the controller's type is not known.")
     if c.resting():

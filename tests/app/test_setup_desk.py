@@ -241,7 +241,7 @@ def test_in_watch_the_controller_is_read_and_its_values_are_taken_and_nothing_el
     rig.simulation.unit.state.registers["KD"][0] = 80 * ONE
     click(stage, window.read)
     stage.until(lambda: ("KD", "X") in window.comparing.keys)  # read once more
-    assert not window.burn.isEnabled() and "Watching only" in window.burn.toolTip()
+    assert not window.burn.isEnabled() and "This is Watch" in window.burn.toolTip()
     choose(window.compare.boxes["KP", "X"], Choice.TAKE)
     click(stage, window.done_button)
     assert kept(stage).axis("X").kp == "12.5" and not window.isVisible()
@@ -274,7 +274,7 @@ def test_in_watch_what_was_chosen_is_kept_not_sent_and_a_lost_connection_forgets
     click(stage, window.compare.send_all)
     click(stage, window.done_button)
     question = asked(stage, "Not sent to the controller")
-    assert "Watching only" in question.words and set(question.buttons) == {"Keep it without sending"}
+    assert "This is Watch" in question.words and set(question.buttons) == {"Keep it without sending"}
     click(stage, question.buttons["Keep it without sending"])
     assert register(rig, "OE") == 0 and not window.isVisible()
     again = compared(stage)

@@ -145,7 +145,7 @@ def test_where_no_channel_shows_the_trigger_it_says_how_unsure_it_is() -> None:
 def test_watch_refuses_and_says_why() -> None:
     rig = Rig("machine", "ssc2").ready()
     job = capture(rig.controller, Plan((POSITION,)))
-    with pytest.raises(NotAllowed, match="Take Control first"):
+    with pytest.raises(NotAllowed, match="Switch to Control first"):
         done(rig, job)
     assert rig.sent("DM|RA|RC") == []
 

@@ -178,7 +178,7 @@ class DisplayPanel(Panel):
         assert controller is not None
         self.io_control.setEnabled(controller.control)
         self.io_control.setToolTip(
-            "Outputs switch when clicked." if controller.control else "Switch from Watch to Control first."
+            "Outputs switch when clicked." if controller.control else "This is Watch: switch to Control first."
         )
         if self.io_control.isChecked() != controller.io_control:
             self.io_control.setChecked(controller.io_control)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 SIMULATED = "Port 2 of the simulator"
 NOWHERE = "Connect the controller's main port first: STOP goes through it."
-WATCHED = "Switch from Watch to Control first: a key can start a motion."
+WATCHED = "This is Watch: switch to Control first; a key can start a motion."
 CLOSED = "Not connected"
 BEEPS = {"short bell": 1, "long bell": 2, "alert": 3}  # key clicks are not heard
 BEEP_MS, TOLD_MS = 250, 2000
