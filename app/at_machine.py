@@ -45,6 +45,7 @@ class AtMachine:
         """Works with what is connected and open from now on."""
         studio = self._studio
         self.panels += (panel,)
+        panel.loaded = lambda: studio.loading.ready
         studio.tick.add(panel)
         panel.attach(studio.connection.controller)
         panel.show_document(None, studio.session.document)

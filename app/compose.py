@@ -25,6 +25,7 @@ from app.importing import Importing
 from app.late import Late
 from app.leaving import Leaving
 from app.live_values import LiveValuesReader
+from app.loading import Loading
 from app.options import Options
 from app.right_machine import RightMachine
 from app.run import Run
@@ -98,7 +99,7 @@ class Studio(QObject):
         self.limits = SetupLimits(self.connection, self.session, self.tick, self.desk.ask, self)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.data = data
-        self.late = Late(self, ports)
+        self.late, self.loading = Late(self, ports), Loading()
         self.run.before = lambda reason, go_on: self.late.proof.keeping.before(reason, go_on)
         self.run.before_start = self.limits.careful
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)

@@ -20,6 +20,7 @@ from app.which_model import known_models
 from device.recorder import Recorder
 
 SAMPLE = "examples/wire-cutter.tlp"
+LOADING_MS = 1500  # until what opens later is loaded; sooner when it is opened
 SETTLED_MS = 5000  # after this the start is over
 
 
@@ -51,6 +52,7 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
         gc.freeze()
         gc.enable()
         QTimer.singleShot(SETTLED_MS, gc.freeze)  # nor what the first connection loads: STOP never waits for a search
+    studio.loading.begin(LOADING_MS)
     studio.program.tree.setFocus()
     if file is not None:
         studio.files.open_path(file)

@@ -77,7 +77,8 @@ class Tick(QObject):
             controller.watch(OWNER, sorted(wanted))
         row = controller.last()
         for panel in shown:
-            panel.refresh(row)
+            if panel.grown():
+                panel.refresh(row)
 
     def _finish_futures(self) -> None:
         done = [pair for pair in self._pending if pair[0].done()]

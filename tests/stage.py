@@ -118,6 +118,9 @@ class Stage:
             self.clock.pass_by(TICK_S)
             self.studio.tick.once()
             self.studio.late.making.finish()  # as after the first half second
+            for panel in self.studio.panels:
+                if panel.in_sight:
+                    panel.making.finish()
             QApplication.processEvents()
 
     def until(self, true: Callable[[], object], seconds: float = 20.0) -> None:

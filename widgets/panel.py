@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QLabel, QWidget
 
 from device.api import Kind, State
+from widgets.parts.pieces import Pieces
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -26,6 +28,16 @@ class Panel(QWidget):
         self.setAccessibleName(self.title)
         self.setProperty("helpPage", self.title)
         self.controller: Controller | None = None
+        self.loaded: Callable[[], bool] = lambda: True  # whether what its pieces need can be had without waiting
+        self.making = Pieces(self.pieces())
+
+    def pieces(self) -> Iterator[object]:
+        """What takes long to make; one piece with each tick, from the first look on."""
+        return iter(())
+
+    def grown(self) -> bool:
+        """Whether everything is made; the next piece is made now."""
+        return self.making.done or (self.loaded() and self.making.step())
 
     @property
     def in_sight(self) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, Qt, Signal
@@ -294,6 +294,12 @@ class JogPanel(Panel):
 
     # ---- arrangement
 
+    def pieces(self) -> Iterator[None]:
+        """The page that is open at first; it is arranged with the tick after."""
+        if self._setup is not None:
+            self._made.page(self.open_page, self._setup)
+        yield
+
     def _fit(self) -> None:
         """The open page for the machine that is connected; made when it is seen, whatever is connected."""
         controller = self.controller
@@ -302,7 +308,7 @@ class JogPanel(Panel):
             self.empty.setVisible(not linked)
             self._area.setVisible(linked)
             self._foot.setVisible(linked)
-        if controller is None or self._setup is None or not self.in_sight:
+        if controller is None or self._setup is None or not self.in_sight or not self.making.done:
             return
         page = self._made.page(self.open_page, self._setup)
         if self.pages.currentWidget() is not page:

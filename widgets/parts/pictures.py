@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QUrl
-from PySide6.QtGui import QImage, QTextCursor, QTextDocument
+from PySide6.QtCore import QBuffer, QByteArray, QSize, QUrl
+from PySide6.QtGui import QImage, QImageReader, QPixmap, QTextCursor, QTextDocument
 from PySide6.QtWidgets import QTextBrowser
 
 MARGIN = 48  # px beside a picture
@@ -19,14 +19,24 @@ def fit_pictures(browser: QTextBrowser) -> None:
             if not shape.isImageFormat():
                 continue
             picture = shape.toImageFormat()
-            found = browser.loadResource(QTextDocument.ResourceType.ImageResource.value, QUrl(picture.name()))
-            image = QImage.fromData(found) if found is not None else QImage()
-            if image.isNull() or image.width() <= room:
+            kind = QTextDocument.ResourceType.ImageResource.value
+            size = size_of(browser.document().resource(kind, QUrl(picture.name())))
+            if size.width() <= room:
                 continue
             picture.setWidth(room)
-            picture.setHeight(round(room * image.height() / image.width()))
+            picture.setHeight(round(room * size.height() / size.width()))
             cursor = QTextCursor(browser.document())
             cursor.setPosition(fragment.position())
             cursor.setPosition(fragment.position() + fragment.length(), QTextCursor.MoveMode.KeepAnchor)
             cursor.setCharFormat(picture)
         block = block.next()
+
+
+def size_of(found: object) -> QSize:
+    """Of a picture as the document has it: painted already, or a file of which only the head is read."""
+    if isinstance(found, QPixmap | QImage):
+        return found.size()
+    if not isinstance(found, QByteArray):
+        return QSize()
+    buffer = QBuffer(found)
+    return QImageReader(buffer).size()

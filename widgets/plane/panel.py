@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from codegen.numbers import parse_number
@@ -135,20 +134,22 @@ class PlanePanel(Panel):
 
     # ---- the picture
 
-    def showEvent(self, event: QShowEvent) -> None:
-        super().showEvent(event)
-        if self.plot is None:
-            self._make_plot()
+    def pieces(self) -> Iterator[None]:
+        """The picture, as what draws it takes a while to load and to make."""
+        from widgets.parts.plot import Plot, inside
 
-    def _make_plot(self) -> None:
-        from widgets.parts.plot import Plot
-
-        plot = self.plot = Plot("Path of two axes from above", equal=True)
+        yield
+        item = inside()
+        yield
+        plot = Plot("Path of two axes from above", equal=True, item=item)
+        yield
         self._drawn = {
             "limits": plot.plot(), "commanded": plot.plot(), "actual": plot.plot(),
             "ghost": plot.plot(symbol="o", symbolSize=20),
             "target": plot.plot(symbol="+", symbolSize=14), "head": plot.plot(symbol="o", symbolSize=11),
         }  # fmt: skip
+        yield
+        self.plot = plot
         self.layout().insertWidget(1, plot, 1)  # type: ignore[union-attr]
         plot.setVisible(bool(self.shown))
         self._name_sides()

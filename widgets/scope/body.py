@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,7 @@ from device.capture import Capture, Channel, cut, scale_of
 from device.curves import Curve, curves, group_of, spectrum
 from widgets.panel import set_text
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces
 from widgets.scope.bar import Bar, View
 from widgets.scope.chart import Chart, Line
 from widgets.scope.choices import Choices
@@ -33,6 +34,26 @@ LEAST_LEFT, LEAST_RIGHT = 560, 860  # px of the whole from which on there is roo
 MEASURED_S = 0.25  # between two readings of a live roll
 
 
+class Parts:
+    """What the scope is made of."""
+
+    bar: Bar
+    choices: Choices
+    chart: Chart
+    readings: Readings
+    kept: Kept
+
+    def pieces(self) -> Iterator[None]:
+        """One after the other: all at once the window would stand still."""
+        self.bar = Bar()
+        yield
+        self.choices = Choices()
+        yield
+        self.chart = Chart()
+        self.readings, self.kept = Readings(), Kept()
+        yield
+
+
 class Body(QWidget):
     """Emits what the person wants; is told of captures, progress and the live roll."""
 
@@ -43,10 +64,13 @@ class Body(QWidget):
     save_wanted = Signal(object)  # a Capture
     open_wanted = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parts: Parts | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.bar, self.choices, self.chart = Bar(), Choices(), Chart()
-        self.readings, self.kept = Readings(), Kept()
+        if parts is None:
+            parts = Parts()
+            Pieces(parts.pieces()).finish()
+        self.bar, self.choices, self.chart = parts.bar, parts.choices, parts.chart
+        self.readings, self.kept = parts.readings, parts.kept
         self.between, self.empty = QLabel(), QLabel(EMPTY)
         self.start = self.bar.capture
         self._setup: Setup | None = None
@@ -342,7 +366,7 @@ class Body(QWidget):
         parts = QSplitter()
         for part in (scroll, middle, right):
             parts.addWidget(part)
-        self._left = scroll
+        self.choices_side = scroll
         parts.setStretchFactor(1, 1)
         parts.setSizes([270, 700, 330])
         parts.setCollapsible(1, False)
@@ -361,7 +385,7 @@ class Body(QWidget):
         bar.save.clicked.connect(self._ask_what_to_save)
         bar.open.clicked.connect(self.open_wanted)
         bar.cursors.toggled.connect(self._toggle_cursors)
-        bar.sides_left.toggled.connect(self._left.setVisible)
+        bar.sides_left.toggled.connect(self.choices_side.setVisible)
         bar.sides_right.toggled.connect(self.side.setVisible)
         bar.sides_left.setChecked(True)
         bar.sides_right.setChecked(True)

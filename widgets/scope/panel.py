@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from widgets.panel import Panel
@@ -31,20 +31,25 @@ class ScopePanel(Panel):
         self._column.setContentsMargins(8, 8, 8, 8)
         self.setMinimumSize(420, 160)
 
-    def showEvent(self, event: QShowEvent) -> None:
-        super().showEvent(event)
-        if self.in_sight:
-            self._build()
+    def pieces(self) -> Iterator[None]:
+        """Bar, choices, curves, readings; then they come in sight side by side."""
+        from widgets.scope.body import Body, Parts
 
-    def _build(self) -> None:
-        if self.body is None:
-            from widgets.scope.body import Body
-
-            self.body = Body()
-            self._column.addWidget(self.body)
-            self.setFocusProxy(self.body.start)
-            self._tell()
-            self.opened.emit()
+        parts = Parts()
+        yield from parts.pieces()
+        body = Body(parts)
+        yield
+        beside = ((body.choices_side, body.bar.sides_left), (body.side, body.bar.sides_right))
+        for side, _ in beside:
+            side.hide()
+        self._column.addWidget(body)
+        for side, wanted in beside:
+            yield
+            side.setVisible(wanted.isChecked())
+        self.body = body
+        self.setFocusProxy(body.start)
+        self._tell()
+        self.opened.emit()
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
@@ -56,7 +61,6 @@ class ScopePanel(Panel):
             self._tell()
 
     def refresh(self, row: Row) -> None:
-        self._build()
         if self.body is not None and self.controller is not None:
             self._tell()
             self.body.refresh(self.controller)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, Qt, Signal
@@ -140,8 +140,6 @@ class TeachPanel(Panel):
         return deflection(across, upward, dead_band(self.driving))
 
     def refresh(self, row: Row) -> None:
-        if self.parts is None:
-            self._make_parts()
         now = self._clock()
         self.volts = tuple(row.value(key) if is_fresh(row, key, now) else math.nan for key in VOLTS)  # type: ignore[assignment]
         if self.enabled and self.reason:
@@ -247,12 +245,15 @@ class TeachPanel(Panel):
 
     # ---- inside
 
-    def _make_parts(self) -> None:
-        """When it is first in sight: the picture takes a while to load."""
+    def pieces(self) -> Iterator[None]:
+        """Everything but its words, as the picture takes a while to load and to make."""
         from widgets.teach.parts import Parts
 
-        self.parts = Parts(self)
-        self._column.insertWidget(2, self.parts, 1)
+        parts = Parts(self)
+        yield
+        yield from parts.make_plot()
+        self.parts = parts
+        self._column.insertWidget(2, parts, 1)
         self._show()
         self._show_usable()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -145,8 +146,6 @@ class Parts(QWidget):
     # ---- the picture
 
     def _draw(self, table: Table, setup: Setup, wrong: tuple[Wrong, ...]) -> None:
-        if self.plot is None:
-            self._make_plot()
         if self.plot is None or self._line is None or self._dots is None:
             return
         places = [] if wrong else drawn(table, setup)
@@ -164,10 +163,14 @@ class Parts(QWidget):
         here = [(float(each.x), float(each.y)) for each in rows[: row + 1] if each.moves][-1:] if row >= 0 else []
         self._now.setData([x for x, _ in here], [y for _, y in here], symbolBrush=look().colour("accent"), pen=None)
 
-    def _make_plot(self) -> None:
-        from widgets.parts.plot import Plot
+    def make_plot(self) -> Iterator[None]:
+        """It takes as long as everything else here, so it comes in pieces."""
+        from widgets.parts.plot import Plot, inside
 
-        self.plot = Plot("Path of the teach table", equal=True)
+        yield
+        item = inside()
+        yield
+        self.plot = Plot("Path of the teach table", equal=True, item=item)
         self.plot.setMinimumHeight(LOWEST_PICTURE)
         self.plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)  # its own wish is a window
         self._line, self._dots = self.plot.plot(), self.plot.plot(symbol="o", symbolSize=6, symbolPen=None)

@@ -1,0 +1,55 @@
+"""What panels are made of and takes long to load: loaded beside the window, before it is wanted."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from importlib import import_module
+
+from PySide6.QtCore import QTimer
+
+# numpy and pyqtgraph take most of the time; the others stand on them, or open with a click
+MODULES = (
+    "numpy.fft", "numpy.ma", "pyqtgraph", "widgets.parts.plot",
+    "widgets.jog.one_axis", "widgets.teach.parts", "widgets.scope.body", "widgets.tuner.pages", "widgets.tuner.plots",
+    "device.values", "device.tuning.run", "device.tuning.entry", "device.capturing", "device.roll",
+    "device.setup_transfer", "widgets.setup.window", "widgets.help.panel", "app.commissioning",
+    "widgets.commissioning.window", "widgets.compare.window", "widgets.backup.window",
+)  # fmt: skip
+SWITCH_S = 0.001  # between two turns of the interpreter meanwhile: the window waits no longer for its own
+
+
+class Loading:
+    """Before `begin` everything is loaded by whoever uses it first."""
+
+    def __init__(self) -> None:
+        self._begun = False
+        self._thread: threading.Thread | None = None
+
+    def begin(self, after_ms: int) -> None:
+        """Loads in a while, or as soon as somebody asks whether it is ready."""
+        self._begun = True
+        QTimer.singleShot(after_ms, self._load)
+
+    @property
+    def ready(self) -> bool:
+        """Whether it is there; who needs it asks again."""
+        if self._begun:
+            self._load()
+        return self._thread is None or not self._thread.is_alive()
+
+    def _load(self) -> None:
+        if self._thread is None:
+            self._thread = threading.Thread(target=load, name="loading", daemon=True)
+            self._thread.start()
+
+
+def load() -> None:
+    """Every module, one after the other."""
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(SWITCH_S)
+    try:
+        for name in MODULES:
+            import_module(name)
+    finally:
+        sys.setswitchinterval(before)
