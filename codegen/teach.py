@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
-from codegen.bows import Bow, through_ends
+from codegen.bows import Bow, Point, through_ends
 from codegen.fields import Context, Dimension, Field, Number, PathQuantity, Quantity, fields_of, value
 from codegen.numbers import number_problem, parse_number, plain
 from codegen.setup import Setup
@@ -316,18 +316,28 @@ def _way_problems(table: Table, setup: Setup) -> list[Wrong]:
             found.append(_wrong(number, "sweep", "an arc needs two different places"))
         elif row.through and before is None:
             found.append(_wrong(number, "through", "the first place is approached alone; write x to stop there"))
-        elif row.sweep and before is not None:
-            found += _beyond(number, through_ends(before, here, float(exact(row.sweep))), setup)
         before = here
-    return found
+    return found or [wrong for number, arc in arcs_of(table) for wrong in _beyond(number, arc, setup)]
+
+
+def arcs_of(table: Table) -> Iterator[tuple[int, Bow]]:
+    """Rows (from 0) that are arcs, in user units: only there they are round, whatever X and Y count."""
+    before: Point | None = None
+    for number, row in enumerate(table.rows):
+        if not row.moves:
+            continue
+        here = float(exact(row.x)), float(exact(row.y))
+        if row.sweep and before is not None:
+            yield number, through_ends(before, here, float(exact(row.sweep)))
+        before = here
 
 
 def _beyond(number: int, arc: Bow, setup: Setup) -> list[Wrong]:
     """An arc swings out beyond its ends."""
     for letter, (low, high) in zip("XY", arc.extent, strict=True):
         least, most = setup.bounds(Dimension.POSITION, letter)
-        factor = setup.factor(Dimension.POSITION, letter)
-        if low < least * factor - 1 or high > most * factor + 1:
+        count = 1 / setup.factor(Dimension.POSITION, letter)
+        if low < least - count or high > most + count:
             text = f"its arc leaves the travel of {letter}, {plain(least, 6)} to {plain(most, 6)}"
             return [_wrong(number, "sweep", text)]
     return []

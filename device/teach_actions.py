@@ -7,9 +7,9 @@ from codegen.instructions import WaitForCondition
 from codegen.instructions.flow import InputLevel
 from codegen.numbers import parse_number
 from codegen.setup import Setup
-from codegen.teach import Table, exact
+from codegen.teach import Table, arcs_of, exact
 from codegen.teach_steps import Kind, Stage, stages
-from device.teach import Action, Await, Move, Send, Stand
+from device.teach import AXES, Action, Await, Move, Send, Stand
 
 WAITS = "AM "  # lines that hold the port; play-back looks instead
 
@@ -20,8 +20,13 @@ def actions_of(table: Table, setup: Setup, first: Move) -> tuple[Action, ...]:
 
 
 def ends_of(table: Table, setup: Setup) -> list[tuple[int, tuple[int, int]]]:
-    """Where the moves of a correct table end: row (from 0) and counts of X and Y."""
-    return [(stage.last, stage.end) for stage in stages(table, setup) if stage.end is not None]
+    """Where the moves of a correct table end, and how far its arcs swing: row (from 0) and counts of X and Y."""
+    found = [(stage.last, stage.end) for stage in stages(table, setup) if stage.end is not None]
+    scales = [float(setup.axis(letter).scale) for letter in AXES]
+    for row, arc in arcs_of(table):
+        for x, y in zip(*arc.extent, strict=True):
+            found.append((row, (round(x * scales[0]), round(y * scales[1]))))
+    return sorted(found, key=lambda each: each[0])
 
 
 def _action(stage: Stage, table: Table, setup: Setup, first: Move) -> Move | Await | Send | Stand:

@@ -76,6 +76,16 @@ def test_what_can_not_be_played_says_where_and_what_to_do(row: int, column: str,
     assert [each.sentence for each in problems(with_cell(made, row, column, text), TABLE)] == [sentence]
 
 
+@pytest.mark.parametrize(
+    ("sweep", "sentence"), [("180", ""), ("-180", "Row 2: its arc leaves the travel of X, -8 to 200.")]
+)
+def test_an_arc_is_round_in_units_whatever_the_axes_count(sweep: str, sentence: str) -> None:
+    """Half a circle of radius 10 mm over (0, 0) to (0, 20) comes to X 10 or -10; Y has half the counts of X."""
+    axes = (dc.replace(AXIS, reverse_limit="-8"), dc.replace(AXIS, counts_per_unit="500"), AXIS, AXIS)
+    made = table(place("0", "0"), place("0", "20", sweep=sweep), place("5", "5"))
+    assert [each.sentence for each in problems(made, dc.replace(TABLE, axes=axes))] == ([says] if says else [])
+
+
 def test_numbers_of_another_unit_are_never_taken_over() -> None:
     assert problems(MANUAL, dc.replace(TABLE, axes=(INCHES,) * 4)) == ()
     assert "taught in in, the axes of the setup are in mm" in problems(MANUAL, TABLE)[0].sentence

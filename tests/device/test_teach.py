@@ -158,6 +158,18 @@ def test_a_row_beyond_a_limit_is_named() -> None:
     assert passes(ends[:1], places, SETUP) == ""
 
 
+@pytest.mark.parametrize("count", ["1000", "500"])
+def test_an_arc_that_swings_beyond_a_limit_of_the_controller_is_named(count: str) -> None:
+    """Half a circle from (20, 0) to (20, 20) counter-clockwise has its middle at (20, 10), so it comes to X 30."""
+    axes = (AXIS, dc.replace(AXIS, counts_per_unit=count), AXIS, AXIS)
+    setup = dc.replace(SETUP, axes=axes)
+    ends = ends_of(Table(("mm", "mm"), (place("20", "0"), place("20", "20", sweep="180"), place("0", "0"))), setup)
+    far = {"X": 200_000, "Y": 200_000}
+    assert passes(ends, Places({"X": 0, "Y": 0}, {**far, "X": 30_001}, {"X": -1, "Y": -1}), setup) == ""
+    words = "Row 2: 30 mm lies beyond the forward limit of X, 29 mm."
+    assert passes(ends, Places({"X": 0, "Y": 0}, {**far, "X": 29_000}, {"X": -1, "Y": -1}), setup) == words
+
+
 def trapezoid_s(counts: float, speed: float = 50_000, ramp: float = 1_024_000) -> float:
     """How long a line lasts: to its speed and back (speed²/ramp counts), or half way up and down again."""
     if counts >= speed**2 / ramp:
