@@ -192,7 +192,7 @@ def _registers(
 
 def _ongoing(job: Job[Backup], phase: str, done: int, total: int) -> None:
     if job.cancelled:
-        raise LinkError(f"Backup cancelled at the {phase}; nothing was changed in the controller.")
+        raise LinkError(f"Back-up cancelled at the {phase}; nothing was changed in the controller.")
     job.show(phase, done, total)
 
 
@@ -240,14 +240,14 @@ def restore_steps(c: Controller, backup: Backup, job: Job[Restored]) -> Steps[Re
     model = yield from quiet(c, "Not restored")
     reasons = misfits(backup, model)
     if reasons:
-        raise NotAllowed(f"Not restored, the backup does not fit: {'; '.join(reasons)}.")
+        raise NotAllowed(f"Not restored, the back-up does not fit: {'; '.join(reasons)}.")
     refused: list[str] = []
     for number, line in enumerate(lines := list(lines_of(backup, model))):
         if job.cancelled and not number:
             raise LinkError("Restore cancelled; nothing was changed in the controller.")
         if job.cancelled:
             raise LinkError(
-                f"Restore cancelled after {number} of {len(lines)} lines: the motors are off and parts of the backup "
+                f"Restore cancelled after {number} of {len(lines)} lines: the motors are off and parts of the back-up "
                 "are in the controller; restore once more."
             )
         job.show("values", number, len(lines))
@@ -297,12 +297,12 @@ def _put(c: Controller, line: str) -> Steps[list[str]]:
 
 
 def _sentence(backup: Backup, model: Model, refused: Sequence[str], left: Sequence[str]) -> str:
-    unknown = f" Not in the backup, because the controller does not tell it: {names(untold(model))}."
+    unknown = f" Not in the back-up, because the controller does not tell it: {names(untold(model))}."
     if refused or left:
         return f"Restored with {len(refused) + len(left)} exceptions; the motors are off, nothing is burned.{unknown}"
-    on = f" In the backup the motors of {', '.join(backup.motors_on)} were on." if backup.motors_on else ""
+    on = f" In the back-up the motors of {', '.join(backup.motors_on)} were on." if backup.motors_on else ""
     return (
         f"Restored and compared: {len(backup.parameters)} parameters, {len(backup.variables)} variables, "
-        f"{len(backup.arrays)} arrays and the program are as in the backup. The motors are off, nothing is burned."
+        f"{len(backup.arrays)} arrays and the program are as in the back-up. The motors are off, nothing is burned."
         f"{on}{unknown}"
     )

@@ -151,13 +151,13 @@ def load(path: str | Path) -> Backup:
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise FileUnreadable(f"{path.name} is not a backup (it is not text)") from None
+        raise FileUnreadable(f"{path.name} is not a back-up (it is not text)") from None
     except OSError as reason:
         raise FileUnreadable(f"{path.name} can not be opened: {(reason.strerror or str(reason)).lower()}") from None
     try:
         return loads(text)
     except FileUnreadable as reason:
-        raise FileUnreadable(f"{path.name} is not a backup of a controller: {reason}") from None
+        raise FileUnreadable(f"{path.name} is not a back-up of a controller: {reason}") from None
 
 
 def loads(text: str) -> Backup:
@@ -288,10 +288,10 @@ def _parameter_differences(wanted: Backup, found: Backup, axes: str) -> Iterable
         for place, value in enumerate(values):
             axis = f" of {axes[place]}" if per_axis(name) else ""
             if place >= len(there):
-                yield f"{COMMANDS[name].title}{axis} ({name}) can not be read, the backup has {number_text(value)}"
+                yield f"{COMMANDS[name].title}{axis} ({name}) can not be read, the back-up has {number_text(value)}"
             elif abs(there[place] - value) >= resolution(name):
                 other = number_text(there[place])
-                yield f"{COMMANDS[name].title}{axis} ({name}) is {other}, the backup has {number_text(value)}"
+                yield f"{COMMANDS[name].title}{axis} ({name}) is {other}, the back-up has {number_text(value)}"
 
 
 def _program_difference(wanted: str, found: str) -> Iterable[str]:
@@ -307,7 +307,7 @@ def _value_differences(kind: str, wanted: Mapping[str, Value], found: Mapping[st
         if name not in found:
             yield f"{kind} {name} is missing"
         elif found[name] != value:
-            yield f"{kind} {name} is {number_text(found[name])}, the backup has {number_text(value)}"
+            yield f"{kind} {name} is {number_text(found[name])}, the back-up has {number_text(value)}"
 
 
 def _array_differences(wanted: Mapping[str, Sequence[Value]], found: Mapping[str, Sequence[Value]]) -> Iterable[str]:
@@ -316,7 +316,7 @@ def _array_differences(wanted: Mapping[str, Sequence[Value]], found: Mapping[str
         if there is None:
             yield f"array {name} is missing"
         elif len(there) != len(values):
-            yield f"array {name} has {len(there)} elements, the backup has {len(values)}"
+            yield f"array {name} has {len(there)} elements, the back-up has {len(values)}"
         else:
             pairs = ({f"{name}[{n}]": value for n, value in enumerate(each)} for each in (values, there))
             yield from _value_differences("element", *pairs)

@@ -128,7 +128,7 @@ def line_calls(calls: argparse._SubParsersAction[Parser]) -> None:
     backup.add_argument("--note", default="", metavar="TEXT", help="kept in the file")
     backup.add_argument("--setup", metavar="SETUP.tls", help="kept in the file as well")
     backup.add_argument("--force", action="store_true", help="overwrite an existing file")
-    restore = calls.add_parser("restore", help="puts a backup back; the motors are off afterwards")
+    restore = calls.add_parser("restore", help="puts a back-up back; the motors are off afterwards")
     restore.add_argument("file", metavar="FILE")
     line_options(restore)
     conform = calls.add_parser("conform", help="compares a controller with the simulator; nothing moves")

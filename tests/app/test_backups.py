@@ -180,8 +180,8 @@ def test_compare_says_item_by_item_what_is_otherwise(stage: Stage) -> None:
     rig.type("KP 12", "LEN=8")
     press(stage, window, "Compare")
     stage.until(lambda: "differs from the back-up in 2 items" in window.compared.toPlainText())
-    assert "Proportional of X (KP) is 12, the backup has 9" in window.compared.toPlainText()
-    assert "variable LEN is 8, the backup has 7" in window.compared.toPlainText()
+    assert "Proportional of X (KP) is 12, the back-up has 9" in window.compared.toPlainText()
+    assert "variable LEN is 8, the back-up has 7" in window.compared.toPlainText()
 
 
 def test_restore_asks_keeps_what_is_there_and_compares(stage: Stage) -> None:
@@ -195,7 +195,7 @@ def test_restore_asks_keeps_what_is_there_and_compares(stage: Stage) -> None:
     assert "The motors go off" in words and "Nothing is burned" in words and answers == ["Restore"]
     assert rig.simulation.unit.state.program  # nothing has happened yet
     answer(stage, "Restore")
-    stage.until(lambda: "are as in the backup" in window.compared.toPlainText(), 60)
+    stage.until(lambda: "are as in the back-up" in window.compared.toPlainText(), 60)
     state = rig.simulation.state()
     assert state["variables"]["LEN"] == 7 and not state["axes"]["X"]["motor_on"]
     assert "Only what is burned is there after the next power-up" in window.compared.toPlainText()
@@ -238,7 +238,7 @@ def test_a_file_that_is_none_is_one_sentence(stage: Stage, tmp_path: Path) -> No
     path.write_text("hello")
     stage.studio.proof.backups.open_file(path)
     words, _ = asked(stage)
-    assert words.startswith("notes.tlb is not a backup of a controller: ") and "\n" not in words
+    assert words.startswith("notes.tlb is not a back-up of a controller: ") and "\n" not in words
     assert listed(window) == []
 
 

@@ -175,7 +175,7 @@ def test_differences_are_said_in_words() -> None:
         variables={},
     )
     said = differences(backup, other)
-    assert any("of X (KP) is 6, the backup has 12.25" in text for text in said)
+    assert any("of X (KP) is 6, the back-up has 12.25" in text for text in said)
     assert "the program differs first at line 2" in said
     assert "variable LEN is missing" in said
 

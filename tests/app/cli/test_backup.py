@@ -48,4 +48,4 @@ def test_a_file_that_is_no_backup_is_one_sentence(tmp_path: Path, capsys: pytest
     file.write_text("{}")
     assert main(["restore", str(file), "--port", "simulator:ssc1"]) == 2
     said = capsys.readouterr().err
-    assert said == "twoletter: a.tlb is not a backup of a controller: it does not say that it is one\n"
+    assert said == "twoletter: a.tlb is not a back-up of a controller: it does not say that it is one\n"
