@@ -316,7 +316,8 @@ class Tuner(QObject):
             share = f", {job.fraction:.0%}" if job.total else ""
             self._panel.show_result(f"{self._panel.running.rstrip('…')}: {job.phase}{share}…")
         state = self._connection.controller.state
-        if self._present is None and self._panel.isVisible() and state is State.READY and not self._reading:
+        unread = self._joined and self._present is None and not self._reading
+        if unread and self._panel.isVisible() and state is State.READY:
             self.read_present()
 
     def _show_trials(self) -> None:

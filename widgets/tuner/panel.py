@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QBoxLayout,
     QComboBox,
     QFrame,
     QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
-    QSizePolicy,
-    QStackedWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -46,6 +43,7 @@ MANUAL, AUTOMATIC, MODEL, LOGBOOK = range(4)
 STARTS = ("Start step", "Start automatic tuning", "Identify the axis", "")
 WIDE = 760  # px; narrower and the diagrams go below
 LEFT = 450  # px of the controls where there is room
+LOWEST = 300  # px of the diagrams below the controls; the Bode plot needs as much again
 
 
 class TunerPanel(Panel):
@@ -72,7 +70,7 @@ class TunerPanel(Panel):
         self.judge: Callable[[Asked], Judged] = lambda asked: Judged("")
         self.running = ""  # what is under way, in words
         self.empty, self.result, self.results = QLabel(OFFLINE), QLabel(), Results()
-        self.axes, self.pages = QComboBox(), QStackedWidget()
+        self.axes, self.pages, self.page = QComboBox(), QWidget(), MANUAL
         self.buttons = [QPushButton(name) for name in PAGES]
         self.use, self.burn = QPushButton("Use these gains"), QPushButton("Save PID gains…")
         self.manual: ManualPage
@@ -100,10 +98,6 @@ class TunerPanel(Panel):
     def axis(self) -> str:
         """The axis that is tuned."""
         return self.axes.currentText() or "X"
-
-    @property
-    def page(self) -> int:
-        return self.pages.currentIndex()
 
     @property
     def step_plot(self) -> StepPlot | None:
@@ -180,7 +174,8 @@ class TunerPanel(Panel):
         if not linked or not self.isVisible() or setup is None or controller is None:
             return
         if not self._made:
-            next(self._making, None)
+            if self.loaded():
+                next(self._making, None)
             return
         letters = controller.axes or setup.letters
         if (setup, letters) != self._fitted:
@@ -203,17 +198,18 @@ class TunerPanel(Panel):
 
     def open_page(self, index: int) -> None:
         """One of the four."""
-        for number in range(self.pages.count()):  # the room of the page that is seen, not of the tallest
-            size = QSizePolicy.Policy.Preferred if number == index else QSizePolicy.Policy.Ignored
-            self.pages.widget(number).setSizePolicy(QSizePolicy.Policy.Preferred, size)
-        self.pages.setCurrentIndex(index)
+        self.page = index
+        for number, page in enumerate((self.manual, self.automatic, self.model, self.logbook)):
+            page.setVisible(number == index)
         for number, button in enumerate(self.buttons):
             button.setChecked(number == index)
-        self.box.setVisible(index != LOGBOOK)
+        for part in (self.box, self.box.fields):
+            part.setVisible(index != LOGBOOK)
         for part in (self.box.drive, self.box.drive_label):
             part.setVisible(index == AUTOMATIC)
         if self.bode_plot is not None:
             self.bode_plot.setVisible(index == MODEL)
+        self._turn()
         self._show_usable()
         self.page_opened.emit(index)
 
@@ -242,16 +238,13 @@ class TunerPanel(Panel):
         from widgets.tuner.plots import StepPlot
         from widgets.tuner.step_box import StepBox
 
-        yield
-        self.manual, self.automatic, self.model, self.logbook = (
-            ManualPage(),
-            AutomaticPage(),
-            ModelPage(),
-            LogbookPage(),
-        )
-        for page in (self.manual, self.automatic, self.model, self.logbook):
-            self.pages.addWidget(page)
         self.box = StepBox()
+        yield
+        self.manual = ManualPage()
+        yield
+        self.automatic, self.model = AutomaticPage(), ModelPage()
+        yield
+        self.logbook = LogbookPage()
         yield
         plots: list[Plot] = []
         for name in ("Step response", "Motor command"):
@@ -268,7 +261,9 @@ class TunerPanel(Panel):
         yield
         self._arrange()
         yield
-        self._box_layout.addWidget(self.results, 1)
+        self._sides.addWidget(self._controls())
+        yield
+        self._turn()
         yield
         self._made = True
         self.open_page(MANUAL)
@@ -294,32 +289,31 @@ class TunerPanel(Panel):
 
     def _arrange(self) -> None:
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(8)
-        column.addLayout(self._top())
-        column.addLayout(self._gains_side())
-        column.addStretch(1)
+        self._column = QVBoxLayout(left)
+        self._column.setContentsMargins(0, 0, 8, 0)
+        self._column.setSpacing(8)
+        self._column.addLayout(self._top())
+        self._column.addLayout(self._gains_side())
+        self._column.addWidget(self.box.fields)
+        self._column.addStretch(1)
         self._scroll = QScrollArea()
         self._scroll.setWidgetResizable(True)
         self._scroll.setFrameShape(QFrame.Shape.NoFrame)
         self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(left)
-        self._box_layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self._area)
-        self._box_layout.setContentsMargins(0, 0, 0, 0)
-        self._box_layout.addWidget(self._controls())
-        self._turn()
+        self._sides = QHBoxLayout(self._area)
+        self._sides.setContentsMargins(0, 0, 0, 0)
 
     def _controls(self) -> QWidget:
-        """The page may scroll; what starts and ends a run, and how it ended, stays in sight."""
+        """All may scroll but what starts and ends a run, and how it ended."""
         self.result.setWordWrap(True)
         self.result.setProperty("role", "quiet")
         self.result.setAccessibleName("Result")
         self._side = QWidget()
         column = QVBoxLayout(self._side)
         column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(8)
+        column.setSpacing(6)
         column.addWidget(self._scroll, 1)
         column.addWidget(self.box)
         column.addWidget(self.result)
@@ -328,6 +322,11 @@ class TunerPanel(Panel):
     def _gains_side(self) -> QVBoxLayout:
         column = QVBoxLayout()
         column.setSpacing(8)
+        pages = QVBoxLayout(self.pages)
+        pages.setContentsMargins(0, 0, 0, 0)
+        for page in (self.manual, self.automatic, self.model, self.logbook):
+            pages.addWidget(page)
+            page.hide()
         column.addWidget(self.pages)
         row = QHBoxLayout()
         row.addWidget(self.use)
@@ -358,13 +357,16 @@ class TunerPanel(Panel):
             self._turn()
 
     def _turn(self) -> None:
-        """Diagrams beside the controls where there is room, else below."""
+        """Diagrams beside the controls where there is room, else below them and scrolled with them."""
         wide = self.width() >= WIDE
-        direction = QBoxLayout.Direction.LeftToRight if wide else QBoxLayout.Direction.TopToBottom
-        if self._box_layout.direction() is not direction:
-            self._box_layout.setDirection(direction)
+        if wide and self._sides.count() == 1:
+            self._column.removeWidget(self.results)
+            self._sides.addWidget(self.results, 1)
+        elif not wide and self._column.indexOf(self.results) < 0:
+            self._sides.removeWidget(self.results)
+            self._column.insertWidget(self._column.count() - 1, self.results)
+        self.results.setMinimumHeight(0 if wide else LOWEST * (2 if self.page == MODEL else 1))
         needed = self._scroll.widget().minimumSizeHint().width() + self._scroll.verticalScrollBar().width()
         left = max(LEFT, needed + 12)
         self._side.setMaximumWidth(left + 24 if wide else 16_777_215)
         self._side.setMinimumWidth(left if wide else 0)
-        self._side.setMinimumHeight(0 if wide else self.height() // 2)

@@ -33,7 +33,10 @@ TOP_VOLTS = Fraction("9.9982")
 
 
 class StepBox(QWidget):
-    """Emits `edited` with every change; the tick of `free` falls whenever what would happen has changed."""
+    """What starts and ends a run; `fields` has a place of its own.
+
+    Emits `edited` with every change; the tick of `free` falls whenever what would happen has changed.
+    """
 
     edited = Signal()
     start = Signal()
@@ -42,7 +45,7 @@ class StepBox(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.step, self.volts, self.seconds, self.drive = QLineEdit(), QLineEdit("9.9982"), QComboBox(), QComboBox()
-        self.unit, self.words = QLabel(), QLabel()
+        self.unit, self.words, self.fields = QLabel(), QLabel(), QWidget()
         self.free = QCheckBox("I have looked: this way is free")
         self.begin, self.end = QPushButton("Start step"), QPushButton("Cancel")
         self._setup: Setup | None = None
@@ -135,7 +138,8 @@ class StepBox(QWidget):
             self.seconds: "Record",
             self.drive: "Drive mode",
         }
-        grid = QGridLayout()
+        grid = QGridLayout(self.fields)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(6)
         for row, (field, name) in enumerate(names.items()):
@@ -163,7 +167,6 @@ class StepBox(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
-        column.addLayout(grid)
         column.addWidget(self.words)
         column.addWidget(self.free, 0, Qt.AlignmentFlag.AlignLeft)
         column.addLayout(row_)
