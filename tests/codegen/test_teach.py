@@ -77,9 +77,9 @@ def test_what_can_not_be_played_says_where_and_what_to_do(row: int, column: str,
 
 
 @pytest.mark.parametrize(
-    ("sweep", "sentence"), [("180", ""), ("-180", "Row 2: its arc leaves the travel of X, -8 to 200.")]
+    ("sweep", "says"), [("180", ""), ("-180", "Row 2: its arc leaves the travel of X, -8 to 200.")]
 )
-def test_an_arc_is_round_in_units_whatever_the_axes_count(sweep: str, sentence: str) -> None:
+def test_an_arc_is_round_in_units_whatever_the_axes_count(sweep: str, says: str) -> None:
     """Half a circle of radius 10 mm over (0, 0) to (0, 20) comes to X 10 or -10; Y has half the counts of X."""
     axes = (dc.replace(AXIS, reverse_limit="-8"), dc.replace(AXIS, counts_per_unit="500"), AXIS, AXIS)
     made = table(place("0", "0"), place("0", "20", sweep=sweep), place("5", "5"))
