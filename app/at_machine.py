@@ -128,7 +128,7 @@ class AtMachine:
         self.table = TeachPanel(clock=studio.now)
         self.teach = Teach(
             studio.connection, studio.session, studio.tick, self.table, self.plane, studio.desk.ask,
-            studio.ear.homed_axes, studio.files.folder, studio.data, studio.now, studio,
+            studio.ear.homed_axes, studio.files.folder, studio.data, studio.now, studio.settings, studio,
         )  # fmt: skip
         self.pads.add(self.table)
         self.ghosts.sources.append(self.teach.play.ghost)
@@ -163,7 +163,7 @@ class AtMachine:
         self.curves = ScopePanel()
         self.scope = Scope(
             studio.connection, studio.session, studio.tick, self.curves, studio.data / "captures", studio.now,
-            studio.window, studio,
+            studio.window, studio.settings, studio,
         )  # fmt: skip
         self.scope.said.connect(studio.desk.say)
         self.scope.note = studio.recorder.note

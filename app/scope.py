@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QObject, QSize, Signal
+from PySide6.QtCore import QObject, QSize, QTimer, Signal
 from PySide6.QtWidgets import QDockWidget
 
 from app.connection import Connection
 from app.session import Session
+from app.settings import Settings
 from app.tick import Tick, failure_of
 from codegen.disk import FileUnreadable
 from device.api import Controller, Kind
@@ -29,6 +33,8 @@ if TYPE_CHECKING:
     from widgets.scope.body import Body
 
 OWNER = "scope"  # of what is watched live
+CHOSEN = "scope"  # the setting
+SETTLE_MS = 500  # typing a number is one change of the settings
 CAPTURES = "Captures (*.csv *.npz)"
 PARTLY_S = 0.4  # between two pictures of a capture under way
 ROOM = QSize(1180, 720)  # of the window of its own
@@ -49,11 +55,16 @@ class Scope(QObject):
         folder: Path,
         clock: Callable[[], float],
         window: QWidget,
+        settings: Settings,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._connection, self._session, self._tick = connection, session, tick
         self._panel, self._folder, self._clock, self._window = panel, folder, clock, window
+        self._settings, self._settling = settings, QTimer(self)
+        self._settling.setSingleShot(True)
+        self._settling.setInterval(SETTLE_MS)
+        self._settling.timeout.connect(self.remember)
         self.job: CaptureJob | None = None
         self.roll: Roll | None = None
         self.note: Callable[[str, dict[str, Any]], None] = lambda kind, what: None  # to the recorder
@@ -85,6 +96,14 @@ class Scope(QObject):
         body.live_wanted.connect(self.live)
         body.save_wanted.connect(self._save)
         body.open_wanted.connect(self._open)
+        body.restore(self._settings.get(CHOSEN))
+        body.chosen.connect(self._settling.start)
+
+    def remember(self) -> None:
+        """What was chosen, for the next start."""
+        self._settling.stop()
+        if self._panel.body is not None:
+            self._settings.set(CHOSEN, self._panel.body.state())
 
     # ------------------------------------------------------------------ a capture
 
@@ -138,25 +157,41 @@ class Scope(QObject):
     # -------------------------------------------------------------------- live
 
     def live(self, on: bool) -> None:
-        """The chosen channels continuously, as fast as the line carries; or no longer."""
+        """The chosen channels continuously, as fast as the line carries; or no longer, then they are kept."""
         from device.roll import Roll
 
-        controller = self._connection.controller
-        keys = [channel.live_key for channel in self._body.live_channels]
+        controller, body = self._connection.controller, self._body
+        keys = [channel.live_key for channel in body.live_channels]
+        goes_on = self.roll if self._watched is controller else None
         if self._watched is not None:
             self._watched.hurry(False)
-            self._watched.poller.first = frozenset()
             self._watched.watch(OWNER, ())
             self._watched = None
-        self.roll = Roll(keys) if on and keys and controller.kind is not Kind.OFFLINE else None
-        if self.roll is not None:
+        before, self.roll = self.roll, None
+        if on and keys and controller.kind is not Kind.OFFLINE:
+            self.roll = Roll(keys, before=goes_on)
             self._watched = controller
-            controller.watch(OWNER, keys)
+            controller.watch(OWNER, keys, each_round=keys)
             controller.hurry(True)
-            controller.poller.first = frozenset(keys)
-        self._body.show_roll(self.roll)
+        if before is not None and self.roll is None:
+            self._keep_roll(before)
+        body.show_roll(self.roll)
         if on and not keys:
-            self._body.show_result("Choose a channel that can be watched first.", good=False)
+            body.show_result("Choose a channel that can be watched first.", good=False)
+
+    def _keep_roll(self, roll: Roll) -> None:
+        """What was seen live stays in the list, to be looked at, laid over and saved."""
+        found = self._told_of(roll.capture(self._body.live_channels, -math.inf, math.inf))
+        if found.count > 1:
+            self._body.add(found, f"Live {found.when[11:]}")
+
+    def _told_of(self, live: Capture) -> Capture:
+        """A stretch of the roll with where it comes from."""
+        controller = self._connection.controller
+        when = datetime.now().isoformat(sep=" ", timespec="seconds")
+        model = controller.model.name if controller.model is not None else ""
+        setup = self._session.document.working_setup
+        return replace(live, model=model, controller=controller.who, when=when, setup=setup)
 
     def _attach(self, controller: Controller) -> None:
         """Another controller: nothing of the former goes on."""
@@ -185,19 +220,29 @@ class Scope(QObject):
         return path.name
 
     def _save(self, capture: Capture) -> None:
+        if capture.moments is not None and not capture.when:
+            capture = self._told_of(capture)
         stem = capture.when.replace(":", ".") or "capture"
         proposed = Path.home() / f"{stem}.csv"
         ask_save(self._window, "Save capture", CAPTURES, partial(self.save, capture), proposed, "csv")
 
     def save(self, capture: Capture, path: Path) -> None:
+        """In a thread of its own: an hour of live values is a large text."""
+        from app.tuner_model import in_background
         from device.capture_file import save
 
-        try:
-            save(path, capture)
-        except OSError as reason:
-            self._body.show_result(f"Not saved: {path.name}: {(reason.strerror or str(reason)).lower()}.", good=False)
-            return
-        self._body.show_result(f"Saved as {path.name}.")
+        self._body.show_result(f"{path.name} is being written.")
+        self._tick.when_done(in_background(partial(save, path, capture)), partial(self._saved, path))
+
+    def _saved(self, path: Path, future: Future[Any]) -> None:
+        failure = future.exception()
+        if isinstance(failure, OSError):
+            why = (failure.strerror or str(failure)).lower()
+            self._body.show_result(f"Not saved: {path.name}: {why}.", good=False)
+        elif failure is not None:
+            raise failure
+        else:
+            self._body.show_result(f"Saved as {path.name}.")
 
     def _open(self) -> None:
         folder = self._folder if self._folder.is_dir() else None

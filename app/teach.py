@@ -14,6 +14,8 @@ from PySide6.QtCore import QObject
 from app.connection import Connection
 from app.run import Ask
 from app.session import Session
+from app.settings import Settings
+from app.teach_chosen import Chosen
 from app.teach_drive import TeachDrive
 from app.teach_play import TeachPlay
 from app.tick import Tick, failure_of
@@ -24,7 +26,7 @@ from codegen.files import save as save_program
 from codegen.generate import generate
 from codegen.setup import Setup
 from codegen.teach import Row, Table
-from codegen.teach_drive import Driving, beginning, pace_of, tolerance_counts
+from codegen.teach_drive import Driving, pace_of, tolerance_counts
 from codegen.teach_path import Seen, rows_of, thinned
 from codegen.teach_steps import drawn, module
 from widgets.parts import files as choose
@@ -54,6 +56,7 @@ class Teach(QObject):
         folder: Callable[[], Path],
         data: Path,
         clock: Callable[[], float],
+        settings: Settings,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
@@ -65,6 +68,7 @@ class Teach(QObject):
         self._redone: list[Table] = []
         self._saved = self.table
         self._driving: tuple[Setup, Driving] | None = None  # for which machine
+        self._chosen = Chosen(settings, panel)
         self._seen: list[Seen] | None = None  # of a way that is being recorded
         self._pending = False  # a place is recorded once the axes stand
         self.drive = TeachDrive(connection, tick, panel, clock, self.record, self.done, self)
@@ -77,6 +81,8 @@ class Teach(QObject):
     def _join(self) -> None:
         panel = self._panel
         panel.driving_changed.connect(self._set_driving)
+        panel.way_chosen.connect(self._chosen.keep_way)
+        panel.made.connect(self._chosen.show_way)
         panel.record_wanted.connect(self.record)
         panel.way_wanted.connect(self._way)
         panel.wait_added.connect(lambda text: self._add(Row(wait=text), f"Waits for input {text}."))
@@ -97,7 +103,8 @@ class Teach(QObject):
     def _show(self) -> None:
         setup = self.setup
         if self._driving is None or self._driving[0].axes != setup.axes:
-            self._set_driving(beginning(setup))
+            self._driving = setup, self._chosen.driving(setup)
+            self._panel.show_driving(self._driving[1])
         if not self.table.rows and self.table.units != teach.units_of(setup):
             self.table = self._saved = Table(teach.units_of(setup))
         wrong = teach.problems(self.table, setup) if self.table.rows else ()
@@ -106,6 +113,7 @@ class Teach(QObject):
 
     def _set_driving(self, driving: Driving) -> None:
         self._driving = self.setup, driving
+        self._chosen.keep_driving(driving, self.setup)
         self._panel.show_driving(driving)
 
     # ---- the table

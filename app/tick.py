@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 PERIOD_MS = 33
 OWNER = "panels"
+NOTHING: tuple[frozenset[str], tuple[str, ...]] = (frozenset(), ())
 
 
 class Tick(QObject):
@@ -26,7 +27,7 @@ class Tick(QObject):
         self._each: list[Callable[[], None]] = []
         self._pending: list[tuple[Future[Any], Callable[[Future[Any]], None]]] = []
         self._controller: Controller | None = None
-        self._watched: frozenset[str] = frozenset()
+        self._watched = NOTHING
         self._timer = QTimer(self)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.setInterval(PERIOD_MS)
@@ -51,7 +52,7 @@ class Tick(QObject):
     def attach(self, controller: Controller) -> None:
         """Works with another controller from now on."""
         self._controller = controller
-        self._watched = frozenset()
+        self._watched = NOTHING
 
     def when_done(self, future: Future[Any], call: Callable[[Future[Any]], None]) -> None:
         """Calls back, here in the window's own thread, once the future is finished; cancelled ones are forgotten."""
@@ -71,10 +72,11 @@ class Tick(QObject):
 
     def _refresh(self, controller: Controller) -> None:
         shown = [panel for panel in self._panels if panel.in_sight]
-        wanted = frozenset(key for panel in shown for key in panel.watches())
-        if wanted != self._watched:
-            self._watched = wanted
-            controller.watch(OWNER, sorted(wanted))
+        watched = frozenset(key for panel in shown for key in panel.watches())
+        drawn = tuple(dict.fromkeys(key for panel in shown for key in panel.draws()))
+        if (watched, drawn) != self._watched:
+            self._watched = watched, drawn
+            controller.watch(OWNER, sorted(watched), each_round=drawn)
         row = controller.last()
         for panel in shown:
             if panel.grown():

@@ -273,8 +273,9 @@ class Controller:
 
     # ------------------------------------------------------------ live values
 
-    def watch(self, owner: str, keys: Iterable[str]) -> None:
-        self.poller.watch(owner, keys)
+    def watch(self, owner: str, keys: Iterable[str], each_round: Iterable[str] = ()) -> None:
+        """What one owner needs; `each_round`: drawn as curves, so read in every round and in one line."""
+        self.poller.watch(owner, keys, each_round)
 
     def last(self) -> Row:
         return self.poller.ring.last() if self.poller.ring.columns else EMPTY

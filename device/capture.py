@@ -233,7 +233,7 @@ class Capture:
 
     Element `trigger` is the first one at or after the trigger (outside, where only a part was kept), `early` how many
     elements earlier it may have been (0: exact to one interval). `model`, `controller`, `when`, `setup`, `note` say
-    where it comes from.
+    where it comes from. `moments` are the times of values that were watched live: they come as the line carries them.
     """
 
     channels: tuple[Channel, ...]
@@ -249,6 +249,7 @@ class Capture:
     setup: Setup | None = None
     complete: bool = True
     note: str = ""
+    moments: NDArray[np.float64] | None = None
 
     @property
     def count(self) -> int:
@@ -258,13 +259,18 @@ class Capture:
     def interval_samples(self) -> int:
         return 1 << self.exponent
 
-    @property
+    @cached_property
     def interval_s(self) -> float:
+        """From one value to the next; of watched ones that is usual."""
+        if self.moments is not None and self.count > 1:
+            return float(np.median(np.diff(self.moments)))
         return self.interval_samples * abs(self.tm) / TICKS_S
 
     @cached_property
     def times(self) -> NDArray[np.float64]:
         """Seconds from the trigger."""
+        if self.moments is not None:
+            return self.moments
         return (np.arange(self.count, dtype=np.float64) - self.trigger) * np.float64(self.interval_s)
 
     @property
@@ -289,7 +295,10 @@ def cut(capture: Capture, low_s: float, high_s: float) -> Capture:
     inside = np.flatnonzero((capture.times >= low_s) & (capture.times <= high_s))
     first, last = (int(inside[0]), int(inside[-1]) + 1) if len(inside) else (0, 0)
     part = capture.complete and last - first == capture.count
-    return replace(capture, values=capture.values[:, first:last].copy(), trigger=capture.trigger - first, complete=part)
+    values = capture.values[:, first:last].copy()
+    if capture.moments is not None:
+        return replace(capture, values=values, moments=capture.moments[first:last].copy(), complete=part)
+    return replace(capture, values=values, trigger=capture.trigger - first, complete=part)
 
 
 def scale_of(channel: Channel, setup: Setup | None) -> tuple[float, str]:
@@ -307,8 +316,10 @@ def scale_of(channel: Channel, setup: Setup | None) -> tuple[float, str]:
 
 def facts(capture: Capture) -> Mapping[str, str]:
     """What a person wants to know of a capture beside its curves."""
-    span = capture.interval_s * max(capture.count - 1, 0)
+    span = float(np.ptp(capture.times)) if capture.count else 0.0
     every = f"every {capture.interval_samples} samples = {capture.interval_s * 1000:.4g} ms"
+    if capture.moments is not None:
+        every = f"read live, about every {capture.interval_s * 1000:.3g} ms"
     return {
         "Captured": capture.when,
         "Controller": capture.controller,

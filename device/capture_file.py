@@ -17,7 +17,8 @@ from codegen.files import setup_dumps, setup_loads
 from codegen.models import MODELS
 from device.capture import BY_NAME, SLOWEST, Capture, Channel
 
-FORMAT, VERSION = "twoletter capture", 1
+FORMAT, VERSION = "twoletter capture", 2
+EVEN = 1  # the version whose values follow each other evenly; live ones bring their times, older programs say so
 CSV, NUMPY = ".csv", ".npz"
 MARK = "# "
 DAMAGE = (zipfile.BadZipFile, zlib.error, KeyError, ValueError, OSError, EOFError, NotImplementedError)
@@ -85,21 +86,22 @@ def loads(text: str) -> Capture:
         cells = line.split(",")
         if len(cells) < 1 + len(channels):
             raise FileUnreadable(f"line {number} has {len(cells)} numbers, {1 + len(channels)} at least belong there")
-        rows.append([_number(cell, number) for cell in cells[1 : 1 + len(channels)]])
-    values = np.array(rows, dtype=np.float64).reshape(len(rows), len(channels)).T
-    return _capture(about, channels, np.ascontiguousarray(values))
+        rows.append([_number(cell, number) for cell in cells[: 1 + len(channels)]])
+    columns = np.ascontiguousarray(np.array(rows, dtype=np.float64).reshape(len(rows), 1 + len(channels)).T)
+    return _capture(about, channels, columns[1:], columns[0])
 
 
 def _from_numpy(data: bytes) -> Capture:
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as file:
             about, values = _about_of(str(file["about"])), np.asarray(file["values"])
+            times = np.asarray(file["times"])
     except DAMAGE:
         raise FileUnreadable("it is damaged") from None
     channels = _channels(about)
     if values.dtype != np.float64 or values.ndim != 2 or len(values) != len(channels):
         raise FileUnreadable("its values do not fit its channels")
-    return _capture(about, channels, values)
+    return _capture(about, channels, values, times)
 
 
 # ------------------------------------------------------------------------ details
@@ -127,7 +129,7 @@ def _number(cell: str, line: int) -> float:
 def _about(capture: Capture) -> dict[str, Any]:
     return {
         "format": FORMAT,
-        "version": VERSION,
+        "version": EVEN if capture.moments is None else VERSION,
         "channels": [[channel.what, channel.axis] for channel in capture.channels],
         "exponent": capture.exponent,
         "tm": capture.tm,
@@ -168,7 +170,9 @@ def _channels(about: dict[str, Any]) -> tuple[Channel, ...]:
     return tuple(found)
 
 
-def _capture(about: dict[str, Any], channels: tuple[Channel, ...], values: np.ndarray[Any, Any]) -> Capture:
+def _capture(
+    about: dict[str, Any], channels: tuple[Channel, ...], values: np.ndarray[Any, Any], times: np.ndarray[Any, Any]
+) -> Capture:
     count = _whole(about, "count", 0, MOST)
     if values.shape[1] != count:
         raise FileUnreadable(f"{values.shape[1]} values of each channel are there, {count} were saved")
@@ -190,8 +194,17 @@ def _capture(about: dict[str, Any], channels: tuple[Channel, ...], values: np.nd
         model=str(model or ""),
         complete=bool(about.get("complete")),
         setup=setup_loads(json.dumps(setup)) if isinstance(setup, dict) else None,
+        moments=_moments(times, count) if about["version"] > EVEN else None,
         **{name: str(text) for name, text in texts.items()},
     )
+
+
+def _moments(times: np.ndarray[Any, Any], count: int) -> np.ndarray[Any, Any]:
+    if times.dtype != np.float64 or times.shape != (count,) or not np.isfinite(times).all():
+        raise FileUnreadable("its times are no numbers")
+    if (np.diff(times) <= 0).any():
+        raise FileUnreadable("its times do not follow each other")
+    return times
 
 
 def _whole(about: dict[str, Any], name: str, low: int, high: int) -> int:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
     Values = NDArray[np.float64]
 
 SETTLED = 0.05  # of a stretch at either end: its level before and after a step
+AROUND = 2  # values before and behind, from which live ones get their velocity and acceleration
 STEP_SHARE = 0.1  # of the peak to peak value: smaller differences of the ends are no step
+MOST_OF_A_SHAPE = 20_000  # values in which steps and periods are looked for; beyond, it would hold a window up
 HYSTERESIS = 0.1  # of the peak to peak value, around the mean
 PLACES = ("position", "auxiliary", "latch")
 
@@ -76,7 +79,7 @@ def derive(capture: Capture, kind: Derived, axis: str) -> Curve | None:
     if kind is Derived.FOLLOWING:
         if position in capture.channels and commanded in capture.channels:
             scale, unit = capture.scale(position)
-            values = (capture.of(commanded) - capture.of(position)) / scale
+            values = (_between(capture, commanded) - capture.of(position)) / scale
         elif error in capture.channels:
             scale, unit = capture.scale(error)
             values = capture.of(error) / scale
@@ -88,8 +91,11 @@ def derive(capture: Capture, kind: Derived, axis: str) -> Curve | None:
         return None
     scale, unit = capture.scale(source)
     per = "/s" if kind is Derived.VELOCITY else "/s²"
-    calculate = velocity if kind is Derived.VELOCITY else acceleration
-    values = calculate(capture.of(source) / scale, capture.interval_s)
+    if capture.moments is not None:
+        values = _fitted(kind, capture.moments, capture.of(source) / scale)
+    else:
+        calculate = velocity if kind is Derived.VELOCITY else acceleration
+        values = calculate(capture.of(source) / scale, capture.interval_s)
     return Curve(f"{kind} {axis}", f"{unit}{per}", str(kind), axis, values, source, kind)
 
 
@@ -107,12 +113,77 @@ def acceleration(places: Values, interval_s: float) -> Values:
     return found
 
 
+# --------------------------------------------- values that came when the line carried them
+
+
+def slopes(times: Values, places: Values) -> Values:
+    """Velocity of each value but the first and last two: of the straight line nearest to the five around it."""
+    t, _, v = _windows(times, places)
+    found: Values = (t * v).sum(axis=1) / (t * t).sum(axis=1)
+    return found
+
+
+def bends(times: Values, places: Values) -> Values:
+    """Acceleration likewise, of the parabola nearest to the five values around."""
+    t, square, v = _windows(times, places)
+    second = square - (t * square).sum(axis=1, keepdims=True) / (t * t).sum(axis=1, keepdims=True) * t
+    second -= second.mean(axis=1, keepdims=True)
+    found: Values = 2 * (second * v).sum(axis=1) / (second * second).sum(axis=1)
+    return found
+
+
+FITS: dict[Derived, Callable[[Values, Values], Values]] = {Derived.VELOCITY: slopes, Derived.ACCELERATION: bends}
+
+
+def _windows(times: Values, places: Values) -> tuple[Values, Values, Values]:
+    """Of each stretch of five: times from their mean, those squared, and values from the first."""
+    wide = 2 * AROUND + 1
+    t = np.lib.stride_tricks.sliding_window_view(times, wide)
+    t = t - t.mean(axis=1, keepdims=True)
+    v = np.lib.stride_tricks.sliding_window_view(places, wide)
+    return t, t * t, v - v[:, :1]
+
+
+def _fitted(kind: Derived, times: Values, places: Values) -> Values:
+    """A value for each that was read and has neighbours, NaN elsewhere."""
+    found = np.full(len(times), np.nan)
+    known = np.flatnonzero(np.isfinite(places))
+    if len(known) > 2 * AROUND:
+        found[known[AROUND:-AROUND]] = FITS[kind](times[known], places[known])
+    return found
+
+
+def _between(capture: Capture, channel: Channel) -> Values:
+    """The values of a channel; of a live one also where another was read, on the straight line between its own."""
+    values = capture.of(channel)
+    return values if capture.moments is None else straight(capture.times, capture.times, values)
+
+
+def straight(wanted: Values, times: Values, values: Values) -> Values:
+    """Values at wanted times, on straight lines between known ones; NaN beyond the first and the last."""
+    known = np.isfinite(values)
+    if not known.any():
+        return np.full(len(wanted), np.nan)
+    found: Values = np.interp(wanted, times[known], values[known], left=np.nan, right=np.nan)
+    return found
+
+
+def evenly(times: Values, values: Values) -> tuple[Values, float]:
+    """As many values as were read, at even times between the first and the last, and the interval (for a spectrum)."""
+    known = np.isfinite(values)
+    times, values = times[known], values[known]
+    if len(times) < 2:
+        return values, 1.0
+    even = np.linspace(times[0], times[-1], len(times))
+    return straight(even, times, values), float(even[1] - even[0])
+
+
 # ------------------------------------------------------------------ measurements
 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """What a stretch of a curve says; NaN where it has none (no step, no oscillation)."""
+    """What a stretch of a curve says; NaN where it has none (no step, no oscillation, or too many values)."""
 
     least: float
     most: float
@@ -123,6 +194,18 @@ class Measured:
     frequency_hz: float
 
 
+def scaled(found: Measured, scale: float) -> Measured:
+    """The same in a unit of so many counts."""
+    return replace(
+        found,
+        least=found.least / scale,
+        most=found.most / scale,
+        mean=found.mean / scale,
+        rms=found.rms / scale,
+        peak_to_peak=found.peak_to_peak / scale,
+    )
+
+
 NOTHING = Measured(*(float("nan"),) * 7)
 
 
@@ -131,16 +214,18 @@ def measure(times: Values, values: Values) -> Measured:
     known = np.isfinite(values)
     if not known.any():
         return NOTHING
-    times, values = times[known], values[known]
+    if not known.all():
+        times, values = times[known], values[known]
     least, most = float(values.min()), float(values.max())
+    shaped = len(values) <= MOST_OF_A_SHAPE
     return Measured(
         least,
         most,
         float(values.mean()),
-        float(np.sqrt(np.mean(values**2))),
+        math.sqrt(float(values @ values) / len(values)),
         most - least,
-        rise_time(times, values),
-        frequency(times, values),
+        rise_time(times, values) if shaped else math.nan,
+        frequency(times, values) if shaped else math.nan,
     )
 
 

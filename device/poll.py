@@ -44,6 +44,11 @@ def requests(keys: Sequence[str], columns: int) -> list[Request]:
     return lines
 
 
+def _with(wishes: dict[str, tuple[str, ...]], owner: str, keys: Iterable[str]) -> dict[str, tuple[str, ...]]:
+    """The wishes of all with another one of one owner; an empty one is none."""
+    return {name: value for name, value in {**wishes, owner: tuple(keys)}.items() if value}
+
+
 class Poller:
     """Reads what is watched, for ever, at the pace the line allows; `run` is its task."""
 
@@ -62,22 +67,21 @@ class Poller:
         self.rate_hz = 0.0
         self.line_share = 0.0  # of the time in which characters of polls travel
         self.hurry = False  # as fast as the line can, whatever a program loses by it
-        self.first: frozenset[str] = frozenset()  # read in every round, because they are drawn as curves
         self._line, self._clock, self._nonces = line, clock, nonces
         self._suspended, self._read, self._idle = suspended, read, idle
         self._rounds = 0
         self._wanted: dict[str, tuple[str, ...]] = {}
+        self._drawn: dict[str, tuple[str, ...]] = {}  # read in every round, because they are drawn as curves
         self._refused: Counter[str] = Counter()
         self._asked: dict[str, float] = {}  # when each value was asked for
         self._always_due = 0.0
         self._answered = False
         self._cycles: deque[float] = deque(maxlen=8)
 
-    def watch(self, owner: str, keys: Iterable[str]) -> None:
-        """What one owner needs now; nothing ends its wish. Callable from any thread."""
-        wanted = dict(self._wanted)
-        wanted[owner] = tuple(keys)
-        self._wanted = {name: value for name, value in wanted.items() if value}
+    def watch(self, owner: str, keys: Iterable[str], each_round: Iterable[str] = ()) -> None:
+        """What one owner needs now, some of it in every round; nothing ends its wish. Callable from any thread."""
+        self._wanted = _with(self._wanted, owner, keys)
+        self._drawn = _with(self._drawn, owner, each_round)
 
     def set_columns(self, names: Sequence[str]) -> None:
         """Which values this controller has; the ring starts afresh."""
@@ -113,8 +117,10 @@ class Poller:
         """
         wanted, idle = self.wanted(), self._idle()
         rows = {key: live.split(key)[0] for key in wanted}
-        first = self.first
-        quick = tuple(key for key, row in rows.items() if key in first or (row.quick and not (row.slow and idle)))
+        first = tuple(dict.fromkeys(key for keys in list(self._drawn.values()) for key in keys if key in rows))
+        quick = first
+        if not (first and self.hurry):  # else the others have their turn with what may wait
+            quick += tuple(k for k, row in rows.items() if k not in first and row.quick and not (row.slow and idle))
         others = [key for key in wanted if key not in quick and self._is_due(key, now)]
         others.sort(key=lambda key: self._asked.get(key, 0.0))
         columns = self.brief or self.columns

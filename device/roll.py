@@ -1,15 +1,25 @@
-"""The live roll: an hour of what was polled, in memory that is set aside once; far views from coarse pieces."""
+"""The live roll: an hour of what was polled, in memory that is set aside once; far views from coarse pieces.
+
+What is derived of positions is worked out as they come and kept like them. A stretch becomes a capture with its own
+times, which is saved, opened and drawn like any other.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from device.capture import Capture, Channel, scale_of
+from device.curves import AROUND, FITS, MOST_OF_A_SHAPE, Curve, Derived, Measured, group_of, straight
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from codegen.setup import Setup
     from device.ring import Ring
 
     Values = NDArray[np.float64]
@@ -19,6 +29,7 @@ LEAST_S = 0.0139  # between two of them, so that an hour fits; a line at 38 400 
 PIECE = 64  # values to one coarse piece
 FINE = 4096  # values drawn one by one
 COLUMNS = 1000  # of a far view; more than a picture shows apart
+AT_ONCE = 50_000  # positions whose derived values are worked out in one go
 
 
 class Track:
@@ -30,6 +41,7 @@ class Track:
         self._times, self._values = np.full(self._most, np.nan), np.full(self._most, np.nan)
         pieces = self._most // PIECE
         self._piece_times, self._least, self._greatest = (np.full(pieces, np.nan) for _ in range(3))
+        self._sums, self._squares = np.full(pieces, np.nan), np.full(pieces, np.nan)
 
     def add(self, times: Values, values: Values) -> None:
         """Newer values, oldest first."""
@@ -45,6 +57,7 @@ class Track:
             place = start // PIECE
             self._piece_times[place] = self._times[start]
             self._least[place], self._greatest[place] = block.min(), block.max()
+            self._sums[place], self._squares[place] = block.sum(), block @ block
 
     @property
     def first(self) -> int:
@@ -55,11 +68,38 @@ class Track:
     def last_time(self) -> float:
         return float(self._times[(self.count - 1) % self._most]) if self.count else float("nan")
 
+    def numbered(self, low: int, high: int) -> tuple[Values, Values]:
+        """Values by their numbers, the last one not included."""
+        low, high = max(low, self.first), min(high, self.count)
+        if high <= low:
+            return self._times[:0], self._values[:0]
+        start, end = low % self._most, (high - 1) % self._most + 1
+        if start < end:
+            return self._times[start:end].copy(), self._values[start:end].copy()
+        return tuple(np.concatenate([kept[start:], kept[:end]]) for kept in (self._times, self._values))  # type: ignore[return-value]
+
     def between(self, start: float, end: float) -> tuple[Values, Values]:
         """Every value of a stretch of time, and one beyond at either side."""
+        return self.numbered(self._place(start) - 1, self._place(end) + 1)
+
+    def many(self, start: float, end: float) -> bool:
+        """Whether a stretch of time holds so many values that they are measured by pieces."""
+        return self._place(end) - self._place(start) > MOST_OF_A_SHAPE
+
+    def measured(self, start: float, end: float) -> tuple[Measured, Values, Values]:
+        """Of a stretch of many values what needs no shape, exactly; and the times and values at its two ends."""
         low, high = self._place(start), self._place(end)
-        places = np.arange(max(self.first, low - 1), min(self.count, high + 1)) % self._most
-        return self._times[places], self._values[places]
+        first, last = -(-low // PIECE), high // PIECE
+        places = np.arange(first, last) % len(self._piece_times)
+        edges = np.concatenate([self.numbered(low, first * PIECE)[1], self.numbered(last * PIECE, high)[1]])
+        least = min(self._least[places].min(), edges.min(initial=np.inf))
+        most = max(self._greatest[places].max(), edges.max(initial=-np.inf))
+        mean = (self._sums[places].sum() + edges.sum()) / (high - low)
+        square = (self._squares[places].sum() + edges @ edges) / (high - low)
+        found = Measured(least, most, mean, math.sqrt(square), most - least, math.nan, math.nan)
+        ends = [self.numbered(low - 1, low + 2), self.numbered(high - 2, high + 1)]
+        times, values = (np.concatenate([end[part] for end in ends]) for part in range(2))
+        return found, times, values
 
     def seen(self, start: float, end: float) -> tuple[Values, Values]:
         """What a picture of that stretch shows: all values, or where they are many least and most of each 64."""
@@ -89,18 +129,127 @@ class Track:
     @property
     def size(self) -> int:
         """Bytes that are set aside."""
-        kept = (self._times, self._values, self._piece_times, self._least, self._greatest)
+        kept = (self._times, self._values, self._piece_times, self._least, self._greatest, self._sums, self._squares)
         return sum(each.nbytes for each in kept)
 
 
-class Roll:
-    """Tracks of some live values, filled from the ring of the poll with every tick."""
+class Followed:
+    """What is derived of a track, in a track of its own: two values behind it, because it looks at both sides."""
 
-    def __init__(self, keys: Sequence[str], most: int = MOST) -> None:
-        self.tracks = {key: Track(most) for key in keys}
+    def __init__(self, kind: Derived, source: Track, commanded: Track | None, most: int) -> None:
+        self.track = Track(most)
+        self._kind, self._source, self._commanded = kind, source, commanded
+        self._next = source.first + (0 if commanded is not None else AROUND)  # number of the next value to look at
+
+    def follow(self) -> None:
+        """Takes what is new, and at first everything that is there."""
+        while self._step():
+            pass
+
+    def _step(self) -> bool:
+        """The next stretch; whether there may be more."""
+        first, around = max(self._next, self._source.first + AROUND), 0 if self._commanded is not None else AROUND
+        end = min(self._source.count - around, first + AT_ONCE)
+        if end <= first:
+            return False
+        times, values = self._source.numbered(first - around, end + around)
+        if self._commanded is None:
+            times, values = times[around : len(times) - around], FITS[self._kind](times, values)
+        else:
+            ready = times <= self._commanded.last_time
+            times, values, end = times[ready], values[ready], first + int(ready.sum())
+            near = self._commanded.between(times[0], times[-1]) if len(times) else (times, times)
+            values = straight(times, *near) - values
+        self._next = end
+        known = np.isfinite(values)
+        self.track.add(times[known], values[known])
+        return len(times) == AT_ONCE
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One curve of the roll: how it is called, its values in counts (or V, or bits), and what one shown unit counts."""
+
+    label: str
+    unit: str
+    group: str
+    channel: Channel
+    derived: Derived | None
+    track: Track
+    scale: float
+
+    def curve(self, values: Values) -> Curve:
+        """Values of its track as a curve in the person's unit."""
+        return Curve(
+            self.label, self.unit, self.group, self.channel.axis, values / self.scale, self.channel, self.derived
+        )
+
+
+class Roll:
+    """Tracks of some live values, filled from the ring of the poll with every tick; `before`: tracks that go on."""
+
+    def __init__(self, keys: Sequence[str], most: int = MOST, before: Roll | None = None) -> None:
+        self._most = most
         self._seen = -1
         self._ring: Ring | None = None
         self.start = float("nan")  # the time of the first value: 0 in the picture
+        former: dict[str, Track] = before.tracks if before is not None else {}
+        self.tracks: dict[str, Track] = {key: former[key] if key in former else Track(most) for key in keys}
+        if before is not None:
+            self._seen, self._ring, self.start = before._seen, before._ring, before.start
+        self._followed: dict[tuple[Derived, str], Followed] = {}
+
+    def lines(self, channels: Sequence[Channel], derived: Collection[Derived], setup: Setup | None) -> tuple[Line, ...]:
+        """Every channel that is watched, then what is derived of it."""
+        found = []
+        for channel in channels:
+            if channel.live_key in self.tracks:
+                scale, unit = scale_of(channel, setup)
+                track = self.tracks[channel.live_key]
+                found.append(Line(channel.label, unit, group_of(channel), channel, None, track, scale))
+        for kind in Derived:
+            if kind in derived:
+                found += [line for axis in "XYZW" if (line := self._derived(kind, axis, setup)) is not None]
+        return tuple(found)
+
+    def _derived(self, kind: Derived, axis: str, setup: Setup | None) -> Line | None:
+        """None where what it needs is not watched."""
+        position, commanded, error = (Channel(what, axis) for what in ("position", "commanded", "error"))
+        here, there, off = (self.tracks.get(each.live_key) for each in (position, commanded, error))
+        scale, unit = scale_of(position, setup)
+        if kind is Derived.FOLLOWING:
+            if here is None or there is None:
+                return Line(f"{kind} {axis}", unit, group_of(error), position, kind, off, scale) if off else None
+            track = self._follow(kind, axis, here, there)
+            return Line(f"{kind} {axis}", unit, group_of(error), position, kind, track, scale)
+        source, channel = (here, position) if here is not None else (there, commanded)
+        if source is None:
+            return None
+        unit = f"{unit}{'/s' if kind is Derived.VELOCITY else '/s²'}"
+        return Line(f"{kind} {axis}", unit, str(kind), channel, kind, self._follow(kind, axis, source, None), scale)
+
+    def _follow(self, kind: Derived, axis: str, source: Track, commanded: Track | None) -> Track:
+        key = (kind, axis)
+        if key not in self._followed:
+            self._followed[key] = Followed(kind, source, commanded, self._most)
+            self._followed[key].follow()
+        return self._followed[key].track
+
+    def capture(self, channels: Sequence[Channel], low: float, high: float) -> Capture:
+        """A stretch as a capture with times of its own; NaN where a channel was not read at a moment."""
+        kept = [channel for channel in channels if channel.live_key in self.tracks]
+        read = [self._within(self.tracks[channel.live_key], low, high) for channel in kept]
+        moments = np.unique(np.concatenate([times for times, _ in read])) if read else np.zeros(0)
+        values = np.full((len(kept), len(moments)), np.nan)
+        for row, (times, what) in enumerate(read):
+            values[row, np.searchsorted(moments, times)] = what
+        return Capture(tuple(kept), values, 1, 1000.0, trigger_text="live", moments=moments)
+
+    @staticmethod
+    def _within(track: Track, low: float, high: float) -> tuple[Values, Values]:
+        times, values = track.between(low, high)
+        inside = (times >= low) & (times <= high)
+        return times[inside], values[inside]
 
     def take(self, ring: Ring) -> bool:
         """What is new since the last call; whether there was anything."""
@@ -124,6 +273,8 @@ class Roll:
                 fresh &= turns > np.floor(track.last_time / LEAST_S)
             track.add(at[fresh] - self.start, what[fresh])
             found |= bool(fresh.any())
+        for followed in self._followed.values():
+            followed.follow()
         return found
 
     @property

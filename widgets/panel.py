@@ -64,6 +64,10 @@ class Panel(QWidget):
         """Keys of the live values it needs while it is visible."""
         return ()
 
+    def draws(self) -> tuple[str, ...]:
+        """Those of them that it draws as curves or ways: read in every round, together as far as a line holds them."""
+        return ()
+
     def refresh(self, row: Row) -> None:
         """The newest values; called some thirty times a second while visible, must be cheap when nothing changed."""
 

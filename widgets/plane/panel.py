@@ -65,7 +65,11 @@ class PlanePanel(Panel):
             self._draw_limits()
 
     def watches(self) -> tuple[str, ...]:
-        return tuple(f"{name}.{letter.lower()}" for letter in self.shown for name in ("position", "commanded"))
+        return tuple(f"{name}.{letter.lower()}" for name in ("position", "commanded") for letter in self.shown)
+
+    def draws(self) -> tuple[str, ...]:
+        """Both places of a moment belong together: read apart the cross would seem to lag behind."""
+        return self.watches()
 
     @property
     def shown(self) -> str:

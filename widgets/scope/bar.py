@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
@@ -62,6 +63,7 @@ class Bar(QWidget):
         self.tools = (self.fit, self.save, self.open, self.picture)
         self.progress, self.words = QProgressBar(), QLabel()
         self._busy = False
+        self._sides = ("", "")  # of the last start
         self._name_all()
         self._lay_out()
         self._connect()
@@ -93,12 +95,28 @@ class Bar(QWidget):
         if [self.across.itemText(place) for place in range(self.across.count())] == list(names):
             return
         for box, usual in ((self.across, 0), (self.upward, min(1, len(names) - 1))):
-            before = box.currentText()
+            before = box.currentText() or self._sides[box is self.upward]
             box.blockSignals(True)
             box.clear()
             box.addItems(list(names))
             box.setCurrentIndex(names.index(before) if before in names else usual)
             box.blockSignals(False)
+
+    # --------------------------------------------------------------- remembered
+
+    def state(self) -> dict[str, Any]:
+        """What was chosen, for the next start."""
+        boxes = {"view": self.views, "window": self.windows, "span": self.span}
+        across, upward = (now or before for now, before in zip(self.sides, self._sides, strict=True))
+        return {**{name: box.currentText() for name, box in boxes.items()}, "across": across, "upward": upward}
+
+    def restore(self, found: Mapping[str, Any]) -> None:
+        """As far as it is something that can be chosen."""
+        for name, box in (("view", self.views), ("window", self.windows), ("span", self.span)):
+            place = box.findText(str(found.get(name, "")))
+            if place >= 0:
+                box.setCurrentIndex(place)
+        self._sides = str(found.get("across", "")), str(found.get("upward", ""))
 
     # -------------------------------------------------------------------- shown
 
@@ -141,11 +159,14 @@ class Bar(QWidget):
 
     def show_view(self, view: View, live: bool) -> None:
         """Only what belongs to the view is offered."""
-        self.views.setEnabled(not live)
-        self.windows.setVisible(view is View.SPECTRUM and not live)
+        self.windows.setVisible(view is View.SPECTRUM)
         for widget in (self.across, self.over, self.upward):
-            widget.setVisible(view is View.PLANE and not live)
-        self.cursors.setEnabled(view is not View.PLANE or live)
+            widget.setVisible(view is View.PLANE)
+        self.cursors.setEnabled(view is not View.PLANE)
+        words = "Save live values" if live else "Save capture"
+        if self.save.accessibleName() != words:
+            self.save.setAccessibleName(words)
+            self.save.setToolTip(f"{words}: CSV or NumPy")
 
     def can_save(self, there: bool) -> None:
         self.save.setEnabled(there)
@@ -167,7 +188,7 @@ class Bar(QWidget):
             button.setAccessibleName(button.text())
         for small, name, words, tip in (
             (self.fit, "zoom_fit", "Fit", "Shows everything (double click)"),
-            (self.save, "save", "Save capture", "Saves the capture: CSV or NumPy"),
+            (self.save, "save", "Save capture", "CSV or NumPy"),
             (self.open, "open", "Open capture", "Opens earlier captures"),
             (self.picture, "export", "Save picture", "Saves the picture as it is on the screen"),
         ):

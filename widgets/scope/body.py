@@ -3,35 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QResizeEvent
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from codegen.models import Model
 from codegen.setup import Setup
 from device.api import Kind, State
-from device.capture import Capture, Channel, cut, scale_of
-from device.curves import Curve, curves, group_of, spectrum
+from device.capture import Capture, Channel, cut
 from widgets.panel import set_text
-from widgets.parts.look import look
 from widgets.parts.pieces import Pieces
 from widgets.scope.bar import Bar, View
-from widgets.scope.chart import Chart, Line
+from widgets.scope.chart import Chart
 from widgets.scope.choices import Choices
 from widgets.scope.kept import Kept
-from widgets.scope.readings import Column, Readings, seconds
+from widgets.scope.readings import Readings, seconds
+from widgets.scope.views import Picture, Views
 
 if TYPE_CHECKING:
     from device.api import Controller
+    from device.roll import Line as Rolled
     from device.roll import Roll
 
 EMPTY = "Nothing is captured yet. Choose channels and press Capture, or switch Live on."
 LEAST_LEFT, LEAST_RIGHT = 560, 860  # px of the whole from which on there is room beside the curves
-MEASURED_S = 0.25  # between two readings of a live roll
+MEASURED_S = 0.25  # between two readings of a live roll, or two of its spectra
+HELD = "The picture is held; Fit or a double click follows again."
 
 
 class Parts:
@@ -63,6 +63,7 @@ class Body(QWidget):
     live_wanted = Signal(bool)
     save_wanted = Signal(object)  # a Capture
     open_wanted = Signal()
+    chosen = Signal()  # something that is remembered
 
     def __init__(self, parts: Parts | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -77,8 +78,10 @@ class Body(QWidget):
         self._partial: Capture | None = None
         self._roll: Roll | None = None
         self._reason = ""
-        self._drawn: list[tuple[Curve, Line]] = []
+        self._views = Views(self.choices)
+        self.picture: Picture | None = None
         self._following = True
+        self._window = (0.0, 1.0)  # the stretch of time of the live picture
         self._measured_at = -math.inf
         self._room = (True, True)
         self._lay_out()
@@ -99,7 +102,7 @@ class Body(QWidget):
         elif controller.kind is Kind.REPLAY:
             reason = "A recording is played: nothing can be captured from it."
         elif not controller.control:
-            reason = "This is Watch. Take Control first: a capture writes arrays in the controller."
+            reason = "This is Watch: switch to Control first; a capture writes arrays in the controller."
         self.bar.allow(reason, controller.kind is not Kind.OFFLINE)
 
     def show_progress(self, phase: str, fraction: float, remaining_s: float) -> None:
@@ -130,13 +133,17 @@ class Body(QWidget):
         self.redraw(fit=True)
 
     def roll_on(self, now: float) -> None:
-        """New live values came."""
+        """New live values came: they are drawn, or measured, which for an hour of them takes as long."""
         if self._roll is None:
             return
-        measured = now - self._measured_at >= MEASURED_S
-        self.redraw(measured=measured)
-        if measured:
+        spectral = self.bar.view is View.SPECTRUM
+        if now - self._measured_at >= MEASURED_S:
             self._measured_at = now
+            if spectral:
+                self.redraw(measured=False)
+            self._measure()
+        elif not spectral:
+            self.redraw(measured=False)
 
     @property
     def live_channels(self) -> tuple[Channel, ...]:
@@ -148,132 +155,85 @@ class Body(QWidget):
         """The capture in front."""
         return self._partial or self.kept.current
 
+    # --------------------------------------------------------------- remembered
+
+    def state(self) -> dict[str, Any]:
+        """What was chosen, for the next start."""
+        return {**self.choices.state(), **self.bar.state()}
+
+    def restore(self, found: Mapping[str, Any]) -> None:
+        """What was chosen at the last start, as far as it is that."""
+        self.choices.restore(found)
+        self.bar.restore(found)
+
     # ------------------------------------------------------------------ drawing
 
     def redraw(self, fit: bool = False, measured: bool = True) -> None:
         """Everything anew, as the choices say."""
-        live = self._roll is not None
-        view = View.TIME if live else self.bar.view
-        self.bar.show_view(view, live)
-        capture = self.shown
+        live, capture = self._roll is not None, self.shown
+        self.bar.show_view(self.bar.view, live)
         nothing = capture is None and not live
         self.empty.setVisible(nothing)
         self.chart.setVisible(not nothing)
-        self.bar.can_save(capture is not None and not live)
+        self.bar.can_save(capture is not None or live)
         if nothing:
+            self.picture = None
             self.readings.show_columns([], None, (0.0, 1.0))
             return
-        draw = self._draw_live if live else {
-            View.TIME: self._draw_time, View.PLANE: self._draw_plane, View.SPECTRUM: self._draw_spectrum,
-        }[view]  # fmt: skip
-        draw()
-        if fit and not live:
+        picture = self.picture = self._live_picture() if live else self._picture(capture)
+        fresh = self.chart.show_lines(
+            picture.lines, picture.bottom, equal=picture.equal, mark=picture.mark, step=picture.step
+        )
+        if live and self.bar.view is View.TIME and (self._following or fresh):
+            self.chart.show_range(*self._window)
+        elif fit:
             self.chart.fit()
         if measured:
             self._measure()
 
-    def _colour(self, channel: Channel) -> QColor:
-        return look().colour(self.choices.colour_of(channel))
-
-    def _line(self, curve: Curve, x: np.ndarray, y: np.ndarray, faded: bool = False) -> Line:
-        known = np.isfinite(y)
-        if not known.all():
-            x, y = x[known], y[known]
-        dashed = curve.dashed or self._doubled(curve)
-        return Line(curve.label, curve.unit, curve.group, self._colour(curve.channel), x, y, dashed, faded)
-
-    def _doubled(self, curve: Curve) -> bool:
-        """A second kind of curve of the same axis in the same strip."""
-        return curve.derived is not None and curve.group == "Position error" and Channel("error", curve.axis) in (
-            self.shown.channels if self.shown is not None else ()
-        )  # fmt: skip
-
-    def _draw_time(self) -> None:
-        capture = self.shown
+    def _picture(self, capture: Capture | None) -> Picture:
         assert capture is not None
-        self._drawn = [
-            (each, self._line(each, capture.times, each.values)) for each in curves(capture, self.choices.shown)
-        ]
-        lines = [line for _, line in self._drawn]
-        for other in self.kept.overlaid:
-            if other is not capture:
-                lines += [
-                    self._line(each, other.times, each.values, True) for each in curves(other, self.choices.shown)
-                ]
-        triggered = capture.trigger_text != "at once"
-        mark = (0.0, capture.early_s) if triggered else None
-        self.chart.show_lines(lines, "Time from the trigger (s)" if triggered else "Time (s)", mark=mark,
-            step=capture.interval_s)  # fmt: skip
+        others = [each for each in self.kept.overlaid if each is not capture]
+        if self.bar.view is View.PLANE:
+            self.bar.offer_sides(self._views.names(capture))
+            return self._views.over_each_other(capture, others, self.bar.sides)
+        if self.bar.view is View.SPECTRUM:
+            return self._views.spectra(capture, self.bar.stretch, self.bar.window_kind)
+        return self._views.over_time(capture, others)
 
-    def _draw_plane(self) -> None:
-        """One curve over another; overlaid captures too where they hold both."""
-        capture = self.shown
-        assert capture is not None
-        all_curves = {each.label: each for each in curves(capture, self.choices.shown)}
-        self.bar.offer_sides(list(all_curves))
-        across, upward = (all_curves[name] for name in self.bar.sides)
-        name = f"{upward.label} over {across.label}"
-        self._drawn = [(each, self._line(each, capture.times, each.values)) for each in (across, upward)]
-        lines = [Line(name, upward.unit, upward.label, self._colour(upward.channel), across.values, upward.values)]
-        for other in self.kept.overlaid:
-            there = {each.label: each for each in curves(other, self.choices.shown)}
-            if other is not capture and {across.label, upward.label} <= set(there):
-                x, y = there[across.label].values, there[upward.label].values
-                lines.append(Line(name, upward.unit, upward.label, self._colour(upward.channel), x, y, faded=True))
-        equal = across.unit == upward.unit and across.group == upward.group and across.axis != upward.axis
-        self.chart.show_lines(lines, f"{across.label} ({across.unit})", equal=equal)
-
-    def _draw_spectrum(self) -> None:
-        """Of the stretch between the cursors, or of everything."""
-        capture = self.shown
-        assert capture is not None
-        places = self.bar.stretch if self.bar.stretch is not None else (-math.inf, math.inf)
-        inside = (capture.times >= min(places)) & (capture.times <= max(places))
-        self._drawn = []
-        for curve in curves(capture, self.choices.shown):
-            hertz, heights = spectrum(curve.values[inside], capture.interval_s, self.bar.window_kind)
-            self._drawn.append((curve, self._line(curve, hertz, heights)))
-        count = int(inside.sum())
-        words = f"Frequency (Hz) · window: {self.bar.window_kind} · {count} values"
-        step = 1 / (count * capture.interval_s) if count else 1.0
-        self.chart.show_lines([line for _, line in self._drawn], words, step=step)
-
-    def _draw_live(self) -> None:
-        roll = self._roll
+    def _live_picture(self) -> Picture:
+        roll, view = self._roll, self.bar.view
         assert roll is not None
-        end = roll.end
-        low, high = self.chart.range
-        if self._following or not self._drawn:
-            low = max(0.0, end - self.bar.span_s)
-            high = low + self.bar.span_s
-        self._drawn = []
-        for channel in self.live_channels:
-            track = roll.tracks.get(channel.live_key)
-            if track is None:
-                continue
-            scale, unit = scale_of(channel, self._setup)
-            x, y = track.seen(low, high)
-            curve = Curve(channel.label, unit, group_of(channel), channel.axis, y / scale, channel)
-            self._drawn.append((curve, self._line(curve, x, curve.values)))
-        self.chart.show_lines([line for _, line in self._drawn], "Time since Live began (s)", step=0.02)
         if self._following:
-            self.chart.show_range(low, high)
+            low = max(0.0, roll.end - self.bar.span_s)
+            self._window = low, low + self.bar.span_s
+        elif view is View.TIME:
+            self._window = self.chart.range
+        rolled = self._rolled()
+        if view is View.PLANE and rolled:
+            self.bar.offer_sides([each.label for each in rolled])
+            return self._views.live_over_each_other(rolled, *self._window, self.bar.sides)
+        if view is View.SPECTRUM:
+            low, high = sorted(self.bar.stretch) if self.bar.stretch is not None else self._window
+            return self._views.live_spectra(rolled, low, high, self.bar.window_kind)
+        return self._views.live(rolled, *self._window)
+
+    def _rolled(self) -> tuple[Rolled, ...]:
+        assert self._roll is not None
+        return self._views.rolled(self._roll, self.live_channels, self._setup)
 
     # ----------------------------------------------------------------- measuring
 
     def _measure(self) -> None:
-        cursors = self.chart.cursors
-        spectral = self._roll is None and self.bar.view is View.SPECTRUM
-        columns = []
-        for curve, line in self._drawn:
-            peak = None
-            if spectral and len(line.y) > 1:
-                top = 1 + int(np.argmax(line.y[1:]))
-                peak = (float(line.x[top]), float(line.y[top]))
-            columns.append(Column(curve.label, curve.unit, line.colour, line.x, line.y, peak))
-        plane = self._roll is None and self.bar.view is View.PLANE
-        self.readings.show_columns(columns, cursors, (-math.inf, math.inf) if plane else self.chart.range)
-        set_text(self.between, self._words(cursors, spectral))
+        if self.picture is None:
+            return
+        cursors, view = self.chart.cursors, self.bar.view
+        low, high = sorted(cursors) if cursors is not None else self.chart.range
+        if view is View.PLANE:
+            low, high = -math.inf, math.inf
+        self.readings.show_columns(self.picture.columns(low, high), cursors, (low, high))
+        held = HELD if self._roll is not None and not self._following and view is View.TIME else ""
+        set_text(self.between, "\n".join(filter(None, (self._words(cursors, view is View.SPECTRUM), held))))
 
     @staticmethod
     def _words(cursors: Sequence[float] | None, spectral: bool) -> str:
@@ -287,8 +247,11 @@ class Body(QWidget):
         return f"A {seconds(first)}   B {seconds(second)}   B − A {seconds(apart)}{turns}"
 
     def _toggle_cursors(self, on: bool) -> None:
+        """Cursors stand at moments: a live picture is held for them."""
         low, high = self.chart.range
         third = (high - low) / 3
+        if on and self._roll is not None and self.bar.view is View.TIME:
+            self._following = False
         self.chart.show_cursors((low + third, high - third) if on else None)
 
     def _view_chosen(self) -> None:
@@ -299,7 +262,9 @@ class Body(QWidget):
         else:
             self.bar.stretch = None
         self.bar.cursors.setChecked(False)
+        self._following = self._following or self.bar.stretch is None
         self.redraw(fit=True)
+        self.chosen.emit()
 
     def _save_picture(self) -> None:
         strip = next(iter(self.chart.strips.values()), None)
@@ -309,31 +274,33 @@ class Body(QWidget):
             strip.save()
 
     def _ask_what_to_save(self) -> None:
-        """All of the capture, or the stretch that is on the screen."""
+        """All of the capture or of the live values, or the stretch that is on the screen."""
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.addAction("Save the whole capture…").triggered.connect(lambda: self.save_wanted.emit(self.shown))
+        whole = "Save all live values…" if self._roll is not None else "Save the whole capture…"
+        menu.addAction(whole).triggered.connect(lambda: self._save(-math.inf, math.inf))
         part = menu.addAction("Save only what is on the screen…")
-        part.triggered.connect(self._save_part)
+        part.triggered.connect(lambda: self._save(*self.chart.range))
         part.setEnabled(self.bar.view is View.TIME)
         menu.popup(self.bar.save.mapToGlobal(self.bar.save.rect().bottomLeft()))
 
-    def _save_part(self) -> None:
-        if self.shown is not None:
-            self.save_wanted.emit(cut(self.shown, *self.chart.range))
+    def _save(self, low: float, high: float) -> None:
+        if self._roll is not None:
+            self.save_wanted.emit(self._roll.capture(self.live_channels, low, high))
+        elif self.shown is not None:
+            self.save_wanted.emit(self.shown if low == -math.inf else cut(self.shown, low, high))
 
     def _live(self) -> None:
         self._following = True
         self.live_wanted.emit(self.bar.live.isChecked())
 
     def _panned(self) -> None:
-        self._following = False
+        self._following = self._following and self.bar.view is not View.TIME
         self._measure()
 
     def _fitted(self) -> None:
         self._following = True
-        if self._drawn:
-            self._measure()
+        self._measure()
 
     # -------------------------------------------------------------------- joining
 
@@ -393,6 +360,7 @@ class Body(QWidget):
         bar.picture.clicked.connect(self._save_picture)
         bar.view_chosen.connect(self._view_chosen)
         bar.drawn_otherwise.connect(lambda: self.redraw(fit=True))
+        bar.drawn_otherwise.connect(self.chosen)
         chart.cursors_moved.connect(lambda: self._measure())
         chart.panned.connect(self._panned)
         chart.fitted.connect(self._fitted)
@@ -411,5 +379,6 @@ class Body(QWidget):
     def _chosen(self) -> None:
         """Other channels, colours or derived curves."""
         if self._roll is not None and set(self._roll.tracks) != {each.live_key for each in self.live_channels}:
-            self.live_wanted.emit(True)  # the roll starts afresh with them
+            self.live_wanted.emit(True)  # with these channels; what is there of them stays
         self.redraw()
+        self.chosen.emit()

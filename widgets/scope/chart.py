@@ -17,6 +17,7 @@ from widgets.parts.look import look
 from widgets.parts.plot import Plot
 
 FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
+FEW_TOGETHER = 5000  # of all curves
 WAY = 60  # heights of the picture that a smooth curve may go up and down
 TITLED = 110  # px of height from which on a strip has titles at its sides
 FADED = 90  # opacity of an overlaid curve, of 255
@@ -73,7 +74,7 @@ class Strip(Plot):
         if not self._chart.key(event):
             super().keyPressEvent(event)
 
-    def show_lines(self, lines: Sequence[Line]) -> None:
+    def show_lines(self, lines: Sequence[Line], few: bool = True) -> None:
         """Draws these and no others; what has not changed its looks is only given its values."""
         while len(self.items) > len(lines):
             self.removeItem(self.items.pop())
@@ -83,7 +84,7 @@ class Strip(Plot):
             self.addItem(self.items[-1])
             self._pens.append(())
         for place, (item, line) in enumerate(zip(self.items, lines, strict=True)):
-            smooth = _smooth(line.y)
+            smooth = few and _smooth(line.y)
             looks = (line.colour.rgba(), line.dashed, line.faded, smooth)
             if looks != self._pens[place]:
                 self._pens[place] = looks
@@ -137,8 +138,11 @@ class Chart(QWidget):
     def show_lines(
         self, lines: Sequence[Line], bottom: str, *, equal: bool = False, mark: tuple[float, float] | None = None,
         step: float = 0.001,
-    ) -> None:  # fmt: skip
-        """`bottom` names the common axis; `mark` is the trigger and how much earlier it may have been."""
+    ) -> bool:  # fmt: skip
+        """`bottom` names the common axis; `mark` is the trigger and how much earlier it may have been.
+
+        Whether there are other strips now: then everything is shown.
+        """
         groups = list(dict.fromkeys(line.group for line in lines)) or [""]
         self._step = step
         shape = (bottom, equal, tuple(groups))
@@ -146,16 +150,19 @@ class Chart(QWidget):
         if fresh:
             self._shape = shape
             self._build(groups, bottom, equal)
+        few = sum(len(line.y) for line in lines) <= FEW_TOGETHER
         for group, strip in self.strips.items():
             mine = [line for line in lines if line.group == group]
-            strip.show_lines(mine)
+            strip.show_lines(mine, few)
             self._name(group, mine, bottom)
         if fresh or mark != self._mark:
             self._mark = mark
             self._draw_mark()
         if fresh:
             self._draw_cursors()
-            self.fit()
+            for strip in self.strips.values():
+                strip.fit_own()
+        return fresh
 
     def _build(self, groups: list[str], bottom: str, equal: bool) -> None:
         for strip in self.strips.values():
@@ -224,10 +231,6 @@ class Chart(QWidget):
         for strip in self.strips.values():
             strip.fit_own()
         self.fitted.emit()
-
-    def grab_picture(self) -> QPixmap:
-        """As it is on the screen."""
-        return self.grab()
 
     @property
     def range(self) -> tuple[float, float]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -13,9 +13,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QLineEdit,
-    QMenu,
     QSpinBox,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -38,11 +36,9 @@ from device.capture import (
 )
 from device.curves import Derived
 from widgets.panel import set_text
-from widgets.parts.look import look
+from widgets.scope.slot import Slot
 
-NONE = "–"
 SLOTS = 4
-COLOURS = {"Blue": "axis_x", "Orange": "axis_y", "Green": "axis_z", "Purple": "axis_w", "Text": "text", "Grey": "quiet"}
 WHENS = {
     When.NOW: "At once",
     When.MOTION: "Motion begins",
@@ -50,77 +46,7 @@ WHENS = {
     When.LEVEL: "Level",
 }
 EDGES = {True: ("goes on", "rises above"), False: ("goes off", "falls below")}
-USUAL = (Channel("position", "X"), Channel("commanded", "X"), Channel("error", "X"), Channel("torque", "X"))
-
-
-class Slot(QWidget):
-    """One channel: its colour and what it is."""
-
-    changed = Signal()
-
-    def __init__(self, number: int, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.number = number
-        self.token = ""  # a colour the person chose; nothing: that of the axis
-        self.what, self.pen = QComboBox(), QToolButton()
-        self.what.setAccessibleName(f"Channel {number}")
-        self.pen.setAccessibleName(f"Colour of channel {number}")
-        self.pen.setToolTip("Colour of the curve")
-        self.pen.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.pen.clicked.connect(self._ask_colour)
-        self.what.currentIndexChanged.connect(self._chosen)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.pen)
-        row.addWidget(self.what, 1)
-
-    @property
-    def channel(self) -> Channel | None:
-        found = self.what.currentData()
-        return found if isinstance(found, Channel) else None
-
-    @property
-    def colour(self) -> str:
-        """A token of the theme."""
-        if self.token:
-            return self.token
-        channel = self.channel
-        return f"axis_{channel.axis.lower()}" if channel is not None and channel.axis else "quiet"
-
-    def offer(self, known: Sequence[Channel], choose: Channel | None) -> None:
-        """The channels there are now; the chosen one stays where it can."""
-        self.what.blockSignals(True)
-        self.what.clear()
-        self.what.addItem(NONE, None)
-        for channel in known:
-            self.what.addItem(channel.label, channel)
-        self.what.setCurrentIndex(known.index(choose) + 1 if choose in known else 0)
-        self.what.blockSignals(False)
-        self.paint_pen()
-
-    def paint_pen(self) -> None:
-        picture = QPixmap(32, 32)
-        picture.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(picture)
-        painter.fillRect(3, 12, 26, 8, look().colour(self.colour))
-        painter.end()
-        self.pen.setIcon(QIcon(picture))
-
-    def _chosen(self) -> None:
-        self.paint_pen()
-        self.changed.emit()
-
-    def _ask_colour(self) -> None:
-        menu = QMenu(self)
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.addAction("As the axis").triggered.connect(lambda: self.choose_colour(""))
-        for name, token in COLOURS.items():
-            menu.addAction(name).triggered.connect(lambda _=False, token=token: self.choose_colour(token))
-        menu.popup(self.pen.mapToGlobal(self.pen.rect().bottomLeft()))
-
-    def choose_colour(self, token: str) -> None:
-        self.token = token
-        self._chosen()
+USUAL = (Channel("position", "X"), Channel("commanded", "X"), None, None)
 
 
 class Choices(QWidget):
@@ -132,6 +58,7 @@ class Choices(QWidget):
         super().__init__(parent)
         self._model: Model | None = None
         self._setup: Setup | None = None
+        self._count, self._axis, self._input = 500, "X", 1  # what the person wants, also where it does not fit now
         self.slots = [Slot(number) for number in range(1, SLOTS + 1)]
         self.derived = {kind: QCheckBox(kind) for kind in Derived}
         self.every, self.count, self.begin = QComboBox(), QSpinBox(), QComboBox()
@@ -139,6 +66,8 @@ class Choices(QWidget):
         self.axis, self.input, self.edge = QComboBox(), QSpinBox(), QComboBox()
         self.level_of, self.level, self.level_unit = QComboBox(), QLineEdit("0"), QLabel()
         self.before = QSpinBox()
+        for slot, usual in zip(self.slots, USUAL, strict=True):
+            slot.wanted = usual
         self._name_all()
         self._lay_out()
         self._fill()
@@ -202,16 +131,59 @@ class Choices(QWidget):
         """What this controller records, in the units of this setup."""
         if model == self._model and setup is self._setup:
             return
-        first = self._model is None
         self._model, self._setup = model, setup
-        known = channels(model)
-        several = model.recorded_channels
-        for slot, usual in zip(self.slots, USUAL, strict=True):
-            slot.setVisible(slot.number <= several)
-            slot.offer(known, usual if first and slot.number <= min(several, 2) else slot.channel)
-        self.axis.clear()
-        self.axis.addItems(list(model.axes))
-        self.input.setRange(1, model.inputs)
+        self._offer()
+        self._follow()
+
+    def _offer(self) -> None:
+        """What there is on this controller, with what the person wants chosen as far as it is there."""
+        if self._model is None:
+            return
+        known = channels(self._model)
+        for slot in self.slots:
+            slot.setVisible(slot.number <= self._model.recorded_channels)
+            slot.offer(known)
+        with QSignalBlocker(self.axis), QSignalBlocker(self.input):
+            self.axis.clear()
+            self.axis.addItems(list(self._model.axes))
+            self.axis.setCurrentIndex(max(self.axis.findText(self._axis), 0))
+            self.input.setRange(1, self._model.inputs)
+            self.input.setValue(self._input)
+
+    # --------------------------------------------------------------- remembered
+
+    def state(self) -> dict[str, Any]:
+        """What was chosen, for the next start."""
+        return {
+            "channels": [slot.state() for slot in self.slots],
+            "derived": sorted(self.shown),
+            "every": self.every.currentIndex() + 1,
+            "count": self._count,
+            "start": self.begin.currentData(),
+            "axis": self._axis,
+            "input": self._input,
+            "rising": bool(self.edge.currentData()),
+            "level": self.level.text(),
+            "before": self.before.value(),
+        }
+
+    def restore(self, found: Mapping[str, Any]) -> None:
+        """What was chosen at the last start, as far as it is something that can be chosen."""
+        listed, derived = found.get("channels"), found.get("derived")
+        for slot, each in zip(self.slots, listed if isinstance(listed, list) else [], strict=False):
+            slot.restore(each)
+        for kind, box in self.derived.items():
+            box.setChecked(isinstance(derived, list) and str(kind) in derived)
+        self.every.setCurrentIndex(_whole(found, "every", 1, SLOWEST, self.every.currentIndex() + 1) - 1)
+        self._count = _whole(found, "count", FEWEST, 8000, self._count)
+        self.begin.setCurrentIndex(max(self.begin.findData(found.get("start")), 0))
+        self._axis = str(found.get("axis", self._axis))
+        self._input = _whole(found, "input", 1, 99, self._input)
+        self.edge.setCurrentIndex(int(found.get("rising") is False))
+        if isinstance(found.get("level"), str):
+            self.level.setText(found["level"])
+        self.before.setValue(_whole(found, "before", 0, 90, self.before.value()))
+        self._offer()
         self._follow()
 
     def _follow(self) -> None:
@@ -222,7 +194,9 @@ class Choices(QWidget):
             every = 2 << place
             self.every.setItemText(place, f"{every} samples, {every * sample_s * 1000:.3g} ms")
         if self._model is not None:
-            self.count.setRange(FEWEST, most(self._model, several))
+            with QSignalBlocker(self.count):  # what is wanted stays so where fewer fit
+                self.count.setRange(FEWEST, most(self._model, several))
+                self.count.setValue(self._count)
         set_text(self.length, f"{self.count.value() * (2 << self.every.currentIndex()) * sample_s:.3g} s")
         for widget, whens in self._only.items():
             self._form.setRowVisible(widget, when in whens)
@@ -275,7 +249,7 @@ class Choices(QWidget):
         self.edge.addItem("", True)
         self.edge.addItem("", False)
         self.count.setRange(FEWEST, 8000)
-        self.count.setValue(500)
+        self.count.setValue(self._count)
         self.count.setSingleStep(100)
         self.before.setRange(0, 90)
         self.before.setValue(25)
@@ -347,8 +321,29 @@ class Choices(QWidget):
             slot.changed.connect(self._follow)
         for box in self.derived.values():
             box.toggled.connect(self._follow)
-        for chosen in (self.every, self.begin, self.axis, self.edge, self.level_of):
+        for chosen in (self.every, self.begin, self.edge, self.level_of):
             chosen.currentIndexChanged.connect(self._follow)
-        for number in (self.count, self.input, self.before):
-            number.valueChanged.connect(self._follow)
+        self.axis.currentTextChanged.connect(self._want_axis)
+        self.count.valueChanged.connect(self._want_count)
+        self.input.valueChanged.connect(self._want_input)
+        self.before.valueChanged.connect(self._follow)
         self.level.textChanged.connect(self._follow)
+
+    def _want_axis(self, axis: str) -> None:
+        self._axis = axis
+        self._follow()
+
+    def _want_count(self, count: int) -> None:
+        self._count = count
+        self._follow()
+
+    def _want_input(self, number: int) -> None:
+        self._input = number
+        self._follow()
+
+
+def _whole(found: Mapping[str, Any], name: str, low: int, high: int, else_: int) -> int:
+    """A whole number of what was remembered, where it is one and fits."""
+    number = found.get(name)
+    fits = isinstance(number, int) and not isinstance(number, bool) and low <= number <= high
+    return int(number) if fits else else_  # type: ignore[arg-type]

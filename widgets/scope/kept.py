@@ -9,6 +9,7 @@ from device.capture import Capture, facts
 from widgets.panel import set_text
 
 MOST = 100  # captures that are kept in memory; the oldest goes
+MOST_VALUES = 8_000_000  # of all of them
 WORDS = "A tick lays a capture over the one that is shown."
 
 
@@ -68,11 +69,16 @@ class Kept(QWidget):
         self.list.insertItem(0, item)
         if show:
             self.list.setCurrentItem(item)
-        while self.list.count() > MOST:
+        while self.list.count() > MOST or (self.list.count() > 1 and self._size > MOST_VALUES):
             gone = self.list.takeItem(self.list.count() - 1)
             self._captures.pop(gone.data(Qt.ItemDataRole.UserRole))
         self.list.blockSignals(False)
         self._tell()
+
+    @property
+    def _size(self) -> int:
+        """Values of all of them."""
+        return sum(capture.values.size for capture in self._captures.values())
 
     def _chosen(self, *_: object) -> None:
         self._tell()

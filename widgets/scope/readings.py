@@ -28,7 +28,7 @@ OF_TIME = ("Least", "Mean", "RMS", "Peak to peak", "Rise 10–90 %", "Frequency"
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """One curve as it is read: `peak` is frequency and height of the highest line of its spectrum."""
+    """One curve as it is read, `x` ascending: `peak` is frequency and height of the highest line of its spectrum."""
 
     label: str
     unit: str
@@ -36,6 +36,7 @@ class Column:
     x: NDArray[np.float64]
     y: NDArray[np.float64]
     peak: tuple[float, float] | None = None
+    measured: Measured | None = None  # where its values are too many to be handed over: then `x` are those at both ends
 
 
 def figure(number: float, unit: str = "") -> str:
@@ -98,8 +99,8 @@ class Readings(QTableWidget):
                 self.setHorizontalHeaderItem(place, head)
         low, high = sorted(cursors) if cursors is not None else shown
         for place, column in enumerate(columns):
-            inside = (column.x >= low) & (column.x <= high)
-            found = measure(column.x[inside], column.y[inside])
+            inside = slice(np.searchsorted(column.x, low), np.searchsorted(column.x, high, side="right"))
+            found = column.measured or measure(column.x[inside], column.y[inside])
             for row, text in enumerate(_texts(column, cursors, found)):
                 self._write(row, place, text)
         for row in range(3):

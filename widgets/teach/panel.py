@@ -69,6 +69,8 @@ class TeachPanel(Panel):
     halt_wanted = Signal()
     file_wanted = Signal(str)  # new, open, save, module
     io_control_wanted = Signal(bool)
+    way_chosen = Signal(str, int)  # what it is driven with, how it is played back
+    made = Signal()  # its parts are there now
 
     def __init__(self, parent: QWidget | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(parent)
@@ -177,6 +179,13 @@ class TeachPanel(Panel):
         self.driving = driving
         self._show()
 
+    def choose_way(self, source: str, how: int) -> None:
+        """What it is driven with and how it is played back, as far as there is such a choice."""
+        if self.parts is not None:
+            for box, place in ((self.parts.source, self.parts.source.findData(source)), (self.parts.how, how)):
+                if 0 <= place < box.count():
+                    box.setCurrentIndex(place)
+
     def show_enabled(self, on: bool) -> None:
         """Whether the stick drives."""
         self.enabled = on
@@ -254,6 +263,7 @@ class TeachPanel(Panel):
         yield from parts.make_plot()
         self.parts = parts
         self._column.insertWidget(2, parts, 1)
+        self.made.emit()
         self._show()
         self._show_usable()
 

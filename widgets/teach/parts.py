@@ -215,6 +215,8 @@ class Parts(QWidget):
         panel = self._panel
         self.enable.clicked.connect(panel.enable_wanted)
         self.source.currentIndexChanged.connect(self._source_chosen)
+        for box in (self.source, self.how):
+            box.activated.connect(lambda: panel.way_chosen.emit(panel.source, self.how.currentIndex()))
         for numbers in (self.of_stick, self.of_rows):
             numbers.edited.connect(panel.driving_changed)
         self.fold.clicked.connect(self._fold)

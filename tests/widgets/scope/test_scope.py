@@ -4,132 +4,21 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-import shiboken6
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QGuiApplication, QMouseEvent, QWheelEvent
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QMenu, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog
 
-from app.theme import Theme
-from codegen.models import MODELS
-from codegen.setup import Setup, Unit
-from codegen.setup_axis import Axis
-from device.capture import Capture, Channel
 from device.capture_file import load, save
 from device.curves import Derived
-from tests.long import record
-from tests.stage import Stage, make_studio
-from widgets.scope.bar import SPANS, View
+from tests.stage import Stage
+from tests.widgets.scope.hands import LEFT, SCALE, choose, click, drag, enter, finished, given, pick, scope
+from widgets.scope.bar import View
 from widgets.scope.body import Body
-
-SCALE = 500  # counts per mm
-LEFT = Qt.MouseButton.LeftButton
-LIVE = ("Position X", "Position Y", "Position error X", "Motor command X")
-
-
-@pytest.fixture
-def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
-    made = make_studio(tmp_path)
-    document = made.studio.session.document
-    axis = dc.replace(document.setup.axes[0], unit=Unit.MM, counts_per_unit=str(SCALE))
-    setup = dc.replace(document.setup, model="ssc2", axes=(axis,) * 4)
-    made.studio.session.set_document(dc.replace(document, setup=setup), "Table")
-    made.studio.window.show()
-    made.go()
-    yield made
-    made.clear_away()
-
-
-def scope(stage: Stage, kind: str = "simulator", model: str = "ssc2") -> Body:
-    """The panel in its window, a machine behind it with its motors on."""
-    rig = stage.connect(kind, model)
-    stage.controller.take_control()
-    rig.type("SH", "SP 40000", "AC 512000", "DC 512000")
-    stage.studio.actions["scope"].trigger()
-    stage.studio.window.docks["Scope"].resize(1180, 720)
-    stage.go()
-    body = stage.studio.at_machine.curves.body
-    assert body is not None
-    return body
-
-
-@pytest.fixture
-def body(qapp: QApplication) -> Iterator[Body]:
-    """The scope without a studio: for what is seen of a capture."""
-    theme = Theme(qapp)
-    made = Body()
-    axis = Axis(unit=Unit.MM, counts_per_unit=str(SCALE))
-    made.show_machine(MODELS["ssc2"], Setup(model="ssc2", axes=(axis,) * 4))
-    made.resize(1180, 600)
-    made.show()
-    qapp.processEvents()
-    yield made
-    theme.release()
-    made.hide()
-    shiboken6.delete(made)
-
-
-def choose(box: QComboBox, words: str) -> None:
-    """By keys, as somebody without a mouse does."""
-    box.setFocus()
-    QTest.keyClick(box, Qt.Key.Key_Home)
-    for _ in range(box.count()):
-        if box.currentText() == words:
-            return
-        QTest.keyClick(box, Qt.Key.Key_Down)
-    assert box.currentText() == words
-
-
-def enter(widget: QWidget, text: str) -> None:
-    widget.setFocus()
-    QTest.keyClick(widget, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
-    QTest.keyClicks(widget, text)
-    QTest.keyClick(widget, Qt.Key.Key_Tab)
-
-
-def click(button: QWidget) -> None:
-    assert button.isVisible() and button.isEnabled(), button.toolTip()
-    QTest.mouseClick(button, LEFT)
-
-
-def finished(stage: Stage, seconds: float = 120) -> Capture:
-    stage.until(lambda: stage.studio.at_machine.scope.job is None, seconds)
-    stage.go(2)
-    shown = stage.studio.at_machine.curves.body.shown
-    assert shown is not None
-    return shown
-
-
-def drag(widget: QWidget, start: QPoint, end: QPoint) -> None:
-    QTest.mouseMove(widget, start)  # a hand is there before it presses
-    QTest.qWait(12)
-    QTest.mousePress(widget, LEFT, pos=start)
-    for part in (0.3, 0.6, 1.0):
-        place = QPoint(*(round(a + part * (b - a)) for a, b in zip(start.toTuple(), end.toTuple(), strict=True)))
-        event = QMouseEvent(QEvent.Type.MouseMove, QPointF(place), widget.mapToGlobal(QPointF(place)), LEFT, LEFT,
-            Qt.KeyboardModifier.NoModifier)  # fmt: skip
-        QTest.qWait(12)  # the scene drops moves that follow each other faster than no hand can
-        QApplication.sendEvent(widget, event)
-    QTest.mouseRelease(widget, LEFT, pos=end)
-
-
-def given(body: Body) -> tuple[Capture, float]:
-    """A capture whose readings mathematics tells: 3 mm of 8 Hz around 10 mm, and its cosine, over whole periods."""
-    dt, count, line = 4 / 1024, 1024, 32
-    hertz = line / (count * dt)
-    t = np.arange(count) * dt
-    values = np.stack([10 + 3 * np.sin(2 * math.pi * hertz * t), 10 + 3 * np.cos(2 * math.pi * hertz * t)]) * SCALE
-    setup = body._setup
-    channels = (Channel("position", "X"), Channel("position", "Y"))
-    capture = Capture(channels, values, 2, 1000.0, when="2026-11-23 08:00:00", setup=setup)
-    body.add(capture)
-    return capture, hertz
 
 
 def test_a_move_is_captured_by_keys_and_mouse(stage: Stage) -> None:
@@ -152,7 +41,7 @@ def test_a_move_is_captured_by_keys_and_mouse(stage: Stage) -> None:
         partly |= shown is not None and 0 < shown.count < 140 and not body.empty.isVisible()
     found = finished(stage)
     assert partly and found.complete and found.count == 140 and found.early == 0
-    assert [line.label for _, line in body._drawn] == [
+    assert body.picture is not None and [line.label for line in body.picture.lines] == [
         "Position X", "Commanded position X", "Motor command X", "Velocity X",
     ]  # fmt: skip
     x, y = body.chart.strips["Position"].items[1].getData()
@@ -168,7 +57,7 @@ def test_why_a_capture_can_not_begin_is_told(stage: Stage) -> None:
     assert body.bar.capture.isEnabled()
     stage.controller.release_control()
     stage.go()
-    assert not body.bar.capture.isEnabled() and "Take Control first" in body.bar.capture.toolTip()
+    assert not body.bar.capture.isEnabled() and "switch to Control first" in body.bar.capture.toolTip()
     stage.controller.take_control()
     choose(body.choices.begin, "Level")
     enter(body.choices.level, "12,5")
@@ -327,13 +216,6 @@ def test_an_earlier_capture_is_opened_and_laid_over(stage: Stage, tmp_path: Path
     assert body.bar.words.text().startswith("broken.csv is not a capture: ")
 
 
-def pick(body: Body, *keys: Qt.Key) -> None:
-    """An entry of the menu that is open, by keys."""
-    menu = next(each for each in body.findChildren(QMenu) if each.isVisible())
-    for key in (*keys, Qt.Key.Key_Return):
-        QTest.keyClick(menu, key)
-
-
 def test_saving_asks_for_a_file_and_writes_it(stage: Stage, tmp_path: Path) -> None:
     body = scope(stage)
     capture, _ = given(body)
@@ -343,85 +225,17 @@ def test_saving_asks_for_a_file_and_writes_it(stage: Stage, tmp_path: Path) -> N
     dialog = next(each for each in stage.studio.window.findChildren(QFileDialog) if each.isVisible())
     dialog.fileSelected.emit(str(tmp_path / "mine.npz"))
     dialog.close()
+    stage.until(lambda: body.bar.words.text() == "Saved as mine.npz.")
     assert np.array_equal(load(tmp_path / "mine.npz").values, capture.values)
-    assert body.bar.words.text() == "Saved as mine.npz."
     body.chart.show_range(1.0, 2.0)
     click(body.bar.save)
     pick(body, Qt.Key.Key_Down, Qt.Key.Key_Down)
     dialog = next(each for each in stage.studio.window.findChildren(QFileDialog) if each.isVisible())
     dialog.fileSelected.emit(str(tmp_path / "part.csv"))
     dialog.close()
+    stage.until(lambda: body.bar.words.text() == "Saved as part.csv.")
     part = load(tmp_path / "part.csv")
     assert part.times[0] == pytest.approx(1.0, abs=0.004) and part.times[-1] == pytest.approx(2.0, abs=0.004)
     assert np.array_equal(part.values, capture.values[:, 256:513])  # 1 s to 2 s at 4/1024 s
     stage.studio.at_machine.scope.save(capture, tmp_path / "no folder" / "mine.csv")
-    assert body.bar.words.text().startswith("Not saved: mine.csv")
-
-
-def pictures(body: Body, span: str) -> Iterator[float]:
-    """The window's own seconds for each of some pictures of that stretch."""
-    body.bar.span.setCurrentText(span)
-    for _ in range(4):
-        begin = time.thread_time()
-        body.roll_on(time.monotonic())
-        body.chart.grab()
-        yield time.thread_time() - begin
-    low, high = body.chart.range
-    assert high - low == pytest.approx(SPANS[span], rel=0.02)
-
-
-@pytest.mark.alone
-def test_an_hour_of_live_values_never_blocks_the_window(stage: Stage) -> None:
-    """Each new picture, painted: less than 50 ms of the window's own time, from ten seconds to a whole hour."""
-    body = scope(stage)
-    for slot, label in zip(body.choices.slots, LIVE, strict=True):
-        slot.what.setCurrentIndex(slot.what.findText(label))
-    click(body.bar.live)
-    stage.go(3)
-    roll = stage.studio.at_machine.scope.roll
-    assert roll is not None and len(roll.tracks) == 4
-    t = np.arange(roll.end + 1, 3600, 0.015)
-    for track in roll.tracks.values():
-        for start in range(0, len(t), 4000):
-            part = t[start : start + 4000]
-            track.add(part, 500 * np.sin(part) + np.sin(40 * part))
-    for _ in range(3):  # again where another process was in the way
-        times = [took for span in SPANS for took in pictures(body, span)]
-        if max(times) < 0.05:
-            break
-    record("scope, 4 live channels of an hour: a picture", "pytest tests/widgets/scope", None, 1000 * max(times), "ms")
-    assert max(times) < 0.05
-    click(body.bar.live)
-
-
-def test_live_shows_the_channels_as_fast_as_the_line_carries(stage: Stage) -> None:
-    body = scope(stage)
-    choose(body.choices.slots[2].what, "Motor command X")
-    stage.studio.window.hide()
-    stage.studio.window.docks["Scope"].show()
-    click(body.bar.live)
-    stage.go(30)
-    stage.rig.controller.ask("PR 20000;BG X")
-    stage.until(lambda: not stage.rig.moving)
-    stage.go(40)
-    roll = stage.studio.at_machine.scope.roll
-    assert roll is not None
-    counts = {key: track.count / roll.end for key, track in roll.tracks.items()}
-    baud = stage.controller.line.baud or 19200
-    assert min(counts.values()) > 7 * baud / 19200  # three channels, each in every round
-    _, y = body.chart.strips["Position"].items[0].getData()
-    assert y[0] == pytest.approx(0, abs=0.01) and y[-1] == pytest.approx(40, abs=0.05)  # 20000 counts
-    assert body.chart.range[1] >= roll.end - 0.2
-    strip = body.chart.strips["Position"]
-    strip.setFocus()
-    QTest.keyClick(strip, Qt.Key.Key_Plus)
-    near = body.chart.range
-    stage.go(20)
-    assert body.chart.range == pytest.approx(near)  # the person looks elsewhere
-    QTest.keyClick(strip, Qt.Key.Key_Home)
-    stage.go(5)
-    assert body.chart.range != pytest.approx(near)
-    click(body.bar.live)
-    stage.go()
-    assert stage.studio.at_machine.scope.roll is None and not stage.controller.poller.hurry
-    assert "scope" not in stage.controller.poller._wanted
+    stage.until(lambda: body.bar.words.text().startswith("Not saved: mine.csv"))

@@ -1,0 +1,204 @@
+"""What is drawn of a capture and of the live roll, over time, over each other, and as spectra; and what is read off."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtGui import QColor
+
+from codegen.setup import Setup
+from device.capture import Capture, Channel
+from device.curves import Curve, Window, curves, evenly, scaled, spectrum, straight
+from device.roll import Line as Rolled
+from device.roll import Roll
+from widgets.parts.look import look
+from widgets.scope.chart import Line
+from widgets.scope.choices import Choices
+from widgets.scope.readings import Column
+
+Values = NDArray[np.float64]
+MOST_OF_A_SPECTRUM = 1 << 15  # live values, the newest of them; more would hold the window up
+MOST_OF_A_PLANE = 4000  # points of a live picture of one curve over another
+NOT_LIVE = 0.02  # s, about what a cursor moves by in live values
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Lines with the axis below them; `columns` are the readings of a stretch of that axis."""
+
+    lines: Sequence[Line]
+    bottom: str
+    columns: Callable[[float, float], list[Column]]
+    step: float = 0.001
+    mark: tuple[float, float] | None = None
+    equal: bool = False
+
+
+class Views:
+    """Makes pictures in the colours of the choices."""
+
+    def __init__(self, choices: Choices) -> None:
+        self._choices = choices
+
+    # ------------------------------------------------------------------ captures
+
+    def over_time(self, capture: Capture, overlaid: Sequence[Capture]) -> Picture:
+        """The capture, those laid over it faded."""
+        own = [self._line(each, capture.times, each.values, capture.channels) for each in self._curves(capture)]
+        lines = list(own)
+        for other in overlaid:
+            lines += [
+                self._line(each, other.times, each.values, other.channels, faded=True) for each in self._curves(other)
+            ]
+        triggered = capture.moments is None and capture.trigger_text != "at once"
+        bottom = "Time from the trigger (s)" if triggered else "Time (s)"
+        if capture.moments is not None:
+            bottom = SINCE
+        mark = (0.0, capture.early_s) if triggered else None
+        return Picture(lines, bottom, _read_off(own), capture.interval_s, mark)
+
+    def names(self, capture: Capture) -> list[str]:
+        """What can be drawn over each other."""
+        return [each.label for each in self._curves(capture)]
+
+    def over_each_other(self, capture: Capture, overlaid: Sequence[Capture], sides: tuple[str, str]) -> Picture:
+        """One curve over another; overlaid captures too where they hold both."""
+        across, upward, x, y = self._pair(capture, sides)
+        own = [self._line(each, capture.times, each.values, capture.channels) for each in (across, upward)]
+        lines = [self._over(across, upward, x, y)]
+        for other in overlaid:
+            if set(sides) <= set(self.names(other)):
+                lines.append(self._over(*self._pair(other, sides), faded=True))
+        return Picture(lines, f"{across.label} ({across.unit})", _read_off(own), equal=_comparable(across, upward))
+
+    def spectra(self, capture: Capture, stretch: tuple[float, float] | None, window: Window) -> Picture:
+        """Of the stretch between the cursors, or of everything."""
+        low, high = sorted(stretch) if stretch is not None else (-math.inf, math.inf)
+        inside = (capture.times >= low) & (capture.times <= high)
+        times = capture.times[inside]
+        found = [(each, times, each.values[inside]) for each in self._curves(capture)]
+        return self._spectra(found, None if capture.moments is not None else capture.interval_s, window)
+
+    # ---------------------------------------------------------------------- live
+
+    def rolled(self, roll: Roll, channels: Sequence[Channel], setup: Setup | None) -> tuple[Rolled, ...]:
+        """The curves of the live roll, with what is derived."""
+        return roll.lines(channels, self._choices.shown, setup)
+
+    def live(self, rolled: Sequence[Rolled], low: float, high: float) -> Picture:
+        """A stretch of time."""
+        kinds, lines = [each.channel for each in rolled if each.derived is None], []
+        for each in rolled:
+            x, y = each.track.seen(low, high)
+            curve = each.curve(y)
+            lines.append(self._line(curve, x, curve.values, kinds))
+
+        def columns(start: float, end: float) -> list[Column]:
+            found = []
+            for each, line in zip(rolled, lines, strict=True):
+                whole = None
+                if each.track.many(start, end):
+                    whole, x, y = each.track.measured(start, end)
+                    whole = scaled(whole, each.scale)
+                else:
+                    x, y = each.track.between(start, end)
+                found.append(Column(line.label, line.unit, line.colour, x, y / each.scale, measured=whole))
+            return found
+
+        return Picture(lines, SINCE, columns, NOT_LIVE)
+
+    def live_over_each_other(
+        self, rolled: Sequence[Rolled], low: float, high: float, sides: tuple[str, str]
+    ) -> Picture:
+        """One live curve over another, at the moments of the one upward."""
+        by_name = {each.label: each for each in rolled}
+        across, upward = (by_name[name] for name in sides)
+        times, y = upward.track.between(low, high)
+        thin = slice(None, None, -(-len(times) // MOST_OF_A_PLANE) or 1)
+        times, y = times[thin], y[thin]
+        near = across.track.between(low, high)
+        x = straight(times, *near) if len(near[0]) else np.full(len(times), np.nan)
+        first, second = across.curve(x), upward.curve(y)
+        own = [self._line(each, times, each.values, ()) for each in (first, second)]
+        line = self._over(first, second, first.values, second.values)
+        bottom = f"{first.label} ({first.unit})"
+        return Picture([line], bottom, _read_off(own), equal=_comparable(first, second))
+
+    def live_spectra(self, rolled: Sequence[Rolled], low: float, high: float, window: Window) -> Picture:
+        """Of a stretch of time, as even values between those that were read."""
+        found = []
+        for each in rolled:
+            times, values = each.track.between(low, high)
+            times, values = times[-MOST_OF_A_SPECTRUM:], values[-MOST_OF_A_SPECTRUM:]
+            curve = each.curve(values)
+            found.append((curve, times, curve.values))
+        return self._spectra(found, None, window)
+
+    # ------------------------------------------------------------------- details
+
+    def _curves(self, capture: Capture) -> tuple[Curve, ...]:
+        return curves(capture, self._choices.shown)
+
+    def _colour(self, channel: Channel) -> QColor:
+        return look().colour(self._choices.colour_of(channel))
+
+    def _line(
+        self, curve: Curve, x: Values, y: Values, channels: Sequence[Channel], faded: bool = False
+    ) -> Line:  # fmt: skip
+        known = np.isfinite(y)
+        if not known.all():
+            x, y = x[known], y[known]
+        doubled = curve.derived is not None and Channel("error", curve.axis) in channels  # a second kind in the strip
+        dashed = curve.dashed or (doubled and curve.group == "Position error")
+        return Line(curve.label, curve.unit, curve.group, self._colour(curve.channel), x, y, dashed, faded)
+
+    def _pair(self, capture: Capture, sides: tuple[str, str]) -> tuple[Curve, Curve, Values, Values]:
+        found = {each.label: each for each in self._curves(capture)}
+        across, upward = (found[name] for name in sides)
+        x, y = across.values, upward.values
+        if capture.moments is not None:  # both are known at few moments only
+            x = straight(capture.times, capture.times, x)
+        return across, upward, x, y
+
+    def _over(self, across: Curve, upward: Curve, x: Values, y: Values, faded: bool = False) -> Line:
+        known = np.isfinite(x) & np.isfinite(y)
+        name = f"{upward.label} over {across.label}"
+        return Line(name, upward.unit, upward.label, self._colour(upward.channel), x[known], y[known], faded=faded)
+
+    def _spectra(
+        self, found: Sequence[tuple[Curve, Values, Values]], interval_s: float | None, window: Window
+    ) -> Picture:
+        """Without an interval the values are made even first."""
+        lines, columns, count, step = [], [], 0, 1.0
+        for curve, times, values in found:
+            even, apart = (values, interval_s) if interval_s is not None else evenly(times, values)
+            hertz, heights = spectrum(even, apart, window)
+            line = self._line(curve, hertz, heights, ())
+            count = max(count, int(np.isfinite(even).sum()))
+            step = 1 / (len(even) * apart) if len(even) else step
+            peak = None
+            if len(heights) > 1:
+                top = 1 + int(np.argmax(heights[1:]))
+                peak = (float(hertz[top]), float(heights[top]))
+            lines.append(line)
+            columns.append(Column(curve.label, curve.unit, line.colour, line.x, line.y, peak))
+        how = "" if interval_s is not None else ", made even"
+        words = f"Frequency (Hz) · window: {window} · {count} values{how}"
+        return Picture(lines, words, lambda low, high: columns, step)
+
+
+SINCE = "Time since Live began (s)"
+
+
+def _read_off(lines: Sequence[Line]) -> Callable[[float, float], list[Column]]:
+    columns = [Column(line.label, line.unit, line.colour, line.x, line.y) for line in lines]
+    return lambda low, high: columns
+
+
+def _comparable(across: Curve, upward: Curve) -> bool:
+    """Whether both directions have the same scale."""
+    return across.unit == upward.unit and across.group == upward.group and across.axis != upward.axis
