@@ -167,6 +167,8 @@ class Teach(QObject):
             for row, column in cells:
                 table = teach.with_cell(table, row, column, "")
             self.change(table)
+        elif what == "pace" and self._foreign:
+            self._panel.show_result(f"Not changed. {self._foreign}", good=False)
         elif what == "pace":
             pace = pace_of(self._panel.driving)
             values = {name: getattr(pace, name) for name in ("speed", "acceleration", "deceleration")}
@@ -180,9 +182,15 @@ class Teach(QObject):
 
     # ---- recording
 
+    @property
+    def _foreign(self) -> str:
+        """Why numbers of this machine must not come among these rows: they were taught in other units. Or nothing."""
+        same = not self.table.rows or self.table.units == teach.units_of(self.setup)
+        return "" if same else teach.unfit(self.table, self.setup)
+
     def record(self) -> None:
         """Where the axes are commanded to be, once they stand; a press while they still move waits for that."""
-        if problem := self._panel.reason or self._panel.problem:
+        if problem := self._panel.reason or self._panel.problem or self._foreign:
             self._panel.show_result(f"Not recorded. {problem.rstrip('.')}.", good=False)
         else:
             self._pending = True
@@ -234,9 +242,10 @@ class Teach(QObject):
 
     def _way(self, on: bool) -> None:
         """Begins to remember where the axes are, or makes rows of it."""
-        if on and self._panel.problem:
+        if problem := self._foreign or (self._panel.problem if on else ""):
+            self._seen = None
             self._panel.show_way(False)
-            self._panel.show_result(f"Not recorded. {self._panel.problem}.", good=False)
+            self._panel.show_result(f"Not recorded. {problem.rstrip('.')}.", good=False)
             return
         self._panel.show_way(on)
         self.drive.again()

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from codegen import teach_file
+from codegen.setup import Unit
 from codegen.teach import Row, Table
 from device.gamepad import Held
 from tests.long import is_long
@@ -127,6 +129,25 @@ def a_whole_way_with_a_pause(bench: Bench) -> None:
     assert any(float(row.get("pause", 0)) > 500 for row in rows[1:-1]), rows
     assert (float(rows[-1]["x"]) * 1000, float(rows[-1]["y"]) * 1000) == bench.places
     assert bench.panel.wrong == ()
+
+
+def test_numbers_of_other_units_never_come_among_the_rows(bench: Bench) -> None:
+    """Rows of a table in mm, a setup in inches: 1 in would be 1 mm when the setup is in mm again."""
+    bench.connect()
+    teach, session = bench.stage.studio.at_machine.teach, bench.stage.studio.session
+    teach.change(Table(("mm", "mm"), (Row(x="1", y="2", **PACE),)))
+    document = session.document
+    axis = dc.replace(document.setup.axes[0], unit=Unit.INCH, counts_per_unit="25400", forward_limit="8")
+    session.set_document(dc.replace(document, setup=dc.replace(document.setup, axes=(axis,) * 4)), "Inches")
+    bench.stage.go(3)
+    before = bench.rows
+    for press in (bench.parts.record, bench.parts.way, bench.parts.edits["pace"]):
+        bench.parts.view.go_to(0, 2)
+        QTest.mouseClick(press, LEFT, pos=QPoint(8, press.height() // 2))
+        bench.stage.go(15)
+        assert "were taught in mm, the axes of the setup are in in" in bench.panel.words()
+        bench.panel.show_result("")
+    assert bench.rows == before and not bench.parts.way.isChecked()
 
 
 def test_the_table_is_edited_by_keys_also_offline_and_by_windows(bench: Bench, tmp_path: Path) -> None:
