@@ -132,7 +132,7 @@ class Scope(QObject):
             self.note("capture", _told(capture))
             words = (
                 f"{capture.count} values a channel" + ("" if capture.complete else ", a part") + f"; kept as {name}."
-            )
+            ) + (f" {capture.note}" if capture.note else "")
             self._body.show_result(failure or words, good=not failure)
         else:
             self._body.show_result(failure, good=False)

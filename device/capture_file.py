@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import re
 import zipfile
 import zlib
 from pathlib import Path
@@ -21,6 +22,7 @@ FORMAT, VERSION = "twoletter capture", 2
 EVEN = 1  # the version whose values follow each other evenly; live ones bring their times, older programs say so
 CSV, NUMPY = ".csv", ".npz"
 MARK = "# "
+NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")  # not all that float() takes is one here
 DAMAGE = (zipfile.BadZipFile, zlib.error, KeyError, ValueError, OSError, EOFError, NotImplementedError)
 MOST = 1_000_000  # values of a channel; no controller holds as many
 
@@ -81,11 +83,13 @@ def loads(text: str) -> Capture:
         raise FileUnreadable("it does not begin with the line that says so")
     about = _about_of(lines[0][len(MARK) :])
     channels = _channels(about)
-    rows = []
+    rows, columns_there = [], len(lines[1].split(",")) if len(lines) > 1 else 0
+    if columns_there < 1 + len(channels):
+        raise FileUnreadable("line 2 does not name the columns")
     for number, line in enumerate(lines[2:], 3):
         cells = line.split(",")
-        if len(cells) < 1 + len(channels):
-            raise FileUnreadable(f"line {number} has {len(cells)} numbers, {1 + len(channels)} at least belong there")
+        if len(cells) != columns_there:  # a decimal comma would make two numbers of one
+            raise FileUnreadable(f"line {number} has {len(cells)} numbers, {columns_there} belong there")
         rows.append([_number(cell, number) for cell in cells[: 1 + len(channels)]])
     columns = np.ascontiguousarray(np.array(rows, dtype=np.float64).reshape(len(rows), 1 + len(channels)).T)
     return _capture(about, channels, columns[1:], columns[0])
@@ -117,10 +121,7 @@ def _text(number: float) -> str:
 def _number(cell: str, line: int) -> float:
     if not cell.strip():
         return math.nan
-    try:
-        found = float(cell)
-    except ValueError:
-        raise FileUnreadable(f"line {line}: “{cell.strip()[:20]}” is not a number") from None
+    found = float(cell) if NUMBER.fullmatch(cell.strip()) else math.inf
     if math.isinf(found):
         raise FileUnreadable(f"line {line}: “{cell.strip()[:20]}” is not a number")
     return found
@@ -162,9 +163,10 @@ def _channels(about: dict[str, Any]) -> tuple[Channel, ...]:
     found = []
     listed = about.get("channels")
     for each in listed if isinstance(listed, list) else []:
-        if not isinstance(each, list) or len(each) != 2 or each[0] not in BY_NAME or str(each[1]) not in "XYZW":
+        texts = [text for text in each if isinstance(text, str)] if isinstance(each, list) else []
+        if len(texts) != 2 or len(each) != 2 or texts[0] not in BY_NAME or texts[1] not in ("", *"XYZW"):
             raise FileUnreadable(f"it names a channel that there is not ({each})")
-        found.append(Channel(str(each[0]), str(each[1])))
+        found.append(Channel(*texts))
     if not found or len(set(found)) < len(found):
         raise FileUnreadable("it names no channels, or one twice")
     return tuple(found)
@@ -177,11 +179,11 @@ def _capture(
     if values.shape[1] != count:
         raise FileUnreadable(f"{values.shape[1]} values of each channel are there, {count} were saved")
     tm = about.get("tm")
-    if not isinstance(tm, int | float) or isinstance(tm, bool) or not math.isfinite(tm) or tm == 0:
+    if not isinstance(tm, int | float) or isinstance(tm, bool) or not 0 < abs(tm) <= MOST:
         raise FileUnreadable("its sample time is not a number")
     model = about.get("model")
     texts = {name: about.get(name) for name in ("trigger_text", "controller", "when", "note")}
-    if not all(isinstance(text, str) for text in texts.values()) or (model and model not in MODELS):
+    if not all(isinstance(text, str) for text in (model, *texts.values())) or (model and model not in MODELS):
         raise FileUnreadable("what it says about itself can not be read")
     setup = about.get("setup")
     return Capture(
@@ -191,7 +193,7 @@ def _capture(
         tm=float(tm),
         trigger=_whole(about, "trigger", -MOST, MOST),
         early=_whole(about, "early", 0, MOST),
-        model=str(model or ""),
+        model=str(model),
         complete=bool(about.get("complete")),
         setup=setup_loads(json.dumps(setup)) if isinstance(setup, dict) else None,
         moments=_moments(times, count) if about["version"] > EVEN else None,
