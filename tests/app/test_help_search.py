@@ -10,6 +10,7 @@ from app.help_pages import Pages, search_words
 from tests.stage import Stage
 from widgets.help.panel import HelpPanel
 from widgets.help.search import pages_with, words_of
+from widgets.help.topic import topic_of
 
 # what somebody types, and the page that has to stand among the first five
 TYPED = {
@@ -79,3 +80,14 @@ def test_a_found_page_opens_where_the_words_stand(stage: Stage, qtbot: QtBot) ->
     stage.studio.desk.show_help("Keys")  # has nothing of that: the list shows all pages again
     assert panel.search.text() == "" and panel.list.count() == everything
     assert not panel.browser.extraSelections()
+
+
+def test_a_question_has_the_page_of_where_it_was_asked(stage: Stage) -> None:
+    studio = stage.studio
+    studio.window.show()
+    studio.desk.bring("Terminal")
+    studio.window.activateWindow()
+    studio.terminal.log.setFocus()
+    studio.desk.ask("Sure?", "It is a question.", [("Yes", lambda: None)])
+    assert studio.desk.question is not None
+    assert topic_of(studio.desk.question.buttons["Yes"]) == "Terminal"

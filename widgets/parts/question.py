@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from widgets.help.topic import topic_of
 from widgets.parts.icons import icon
 
 
@@ -25,6 +26,7 @@ class Question(QDialog):
         self.setWindowTitle(title)
         self.setModal(False)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setProperty("helpPage", topic_of(QApplication.focusWidget()))  # of where it was asked
         self.buttons: dict[str, QPushButton] = {}
         heading, text, drawing = QLabel(title), QLabel(words), QLabel()
         self.words = words
