@@ -57,7 +57,7 @@ class Modelling(QObject):
         self.proposal: Proposal | None = None
         self._excited: Excited | None = None
         self._to_draw = False
-        self._designing = False
+        self.designing = False
         self._next: tuple[float, float] | None = None  # asked for while one was being worked out; the last counts
         panel.target_wanted.connect(self._design)
 
@@ -67,7 +67,7 @@ class Modelling(QObject):
         self._to_draw = False
         if self._panel.bode_plot is not None:
             self._panel.model.show_usable(False)
-            self._panel.bode_plot.show_bode(None, None)
+            self._panel.bode_plot.show_bode(None)
 
     def look(self) -> None:
         """With each tick: two pictures at once would be felt."""
@@ -141,7 +141,7 @@ class Modelling(QObject):
 
     def _design(self, crossover: float, phase: float) -> None:
         self._memory.keep_target(crossover, phase)
-        if self._designing:
+        if self.designing:
             self._next = (crossover, phase)
         elif self.estimate is not None:
             self._propose((crossover, phase), self._panel.asked)
@@ -161,7 +161,7 @@ class Modelling(QObject):
             return first_proposed(estimate, None if before is None else Target(*before), *then)
 
         def done(future: Future[Any]) -> None:
-            self._designing = False
+            self.designing = False
             if estimate is not self.estimate:
                 return
             wanted, self._next = self._next, None
@@ -170,7 +170,7 @@ class Modelling(QObject):
             else:
                 self._proposed(future)
 
-        self._designing = True
+        self.designing = True
         self._tick.when_done(in_background(work), done)
 
     def _proposed(self, future: Future[Any]) -> None:
@@ -184,7 +184,7 @@ class Modelling(QObject):
         if proposal.target is not None:
             model.show_target(proposal.target.crossover, proposal.target.phase)
             bode_plot.show_target(proposal.target.crossover, proposal.target.phase)
-        bode_plot.show_bode(proposal.bode, proposal.margins)
+        bode_plot.show_bode(proposal.bode)
         model.show_usable(True, "" if proposal.gains is not None else UNREACHED)
         model.show_design(proposal.gains, proposal.margins, proposal.words)
         if proposal.gains is not None:

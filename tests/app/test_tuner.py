@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog, QWidget
 from shiboken6 import isValid
@@ -26,12 +26,14 @@ from tests.app.test_controls import controls, describe, name_of, reachable
 from tests.long import is_long, record
 from tests.rig import Rig
 from tests.stage import Stage
+from tests.widgets.scope.test_scope import drag
 from widgets.help.topic import topic_of
 from widgets.parts.question import Question
 from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MANUAL, MODEL, TunerPanel
 
 GAINS = {"KP": 6.0, "KI": 0.0, "KD": 64.0}
 TICK_CPU_S = 0.05
+TWENTY = math.log10(20.0)  # Hz, as the Bode plot counts
 
 
 def tuner(stage: Stage, kind: str = "simulator", model: str = "ssc1", **more: Any) -> TunerPanel:
@@ -240,11 +242,16 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
     assert part.estimate.plant.gain == pytest.approx(0.1 / 2e-4 * 4000 / (2 * math.pi), rel=0.02)
     assert panel.bode_plot is not None and "Crossover" in panel.model.margins.text()
     first = part.proposal
-    panel.bode_plot.crossover.setValue(math.log10(20.0))  # dragged, and let go
-    panel.bode_plot.crossover.sigPositionChangeFinished.emit(panel.bode_plot.crossover)
+    view = panel.bode_plot.gain.viewport()
+    drag(
+        view, at(panel.bode_plot.gain, panel.bode_plot.crossover.value(), 30.0), at(panel.bode_plot.gain, TWENTY, 30.0)
+    )
     worked(stage, lambda: part.proposal is not first)
-    assert panel.model.crossover.text() == "20" and part.proposal is not None and part.proposal.margins is not None
-    assert part.proposal.margins.crossover == pytest.approx(20 * 2 * math.pi, rel=0.1)
+    assert float(panel.model.crossover.text()) == pytest.approx(20, rel=0.03)  # a pixel or two
+    assert part.proposal is not None and part.proposal.margins is not None and part.proposal.margins.crossover
+    wanted = float(panel.model.crossover.text()) * 2 * math.pi
+    assert part.proposal.margins.crossover == pytest.approx(wanted, rel=0.1)
+    _margin_and_keys(stage, panel)
     second = part.proposal
     run(stage, panel, panel.model.run)
     entry = stage.studio.at_machine.tuning.book.book.entries[-1]
@@ -258,10 +265,6 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
         predicted.actual,
     )
     assert np.sqrt(np.mean((there - measured.actual) ** 2)) < 0.06 * entry.step
-    typed(panel.model.crossover, "400")
-    click(panel.model.apply)
-    worked(stage, lambda: part.proposal is not second)
-    assert part.proposal.gains is None and len(panel.model.result.text()) > 30  # why not, in words
     gc.enable()
     slowest.sort()
     assert slowest[-2] < TICK_CPU_S, slowest[-5:]  # CPU time swings on a busy computer: one may be disturbed
@@ -272,6 +275,56 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
         slowest[-2] * 1000,
         "ms of CPU",
     )
+    _beyond_reach(stage, panel)
+
+
+def _margin_and_keys(stage: Stage, panel: TunerPanel) -> None:
+    """The level handle by the mouse, then both by keys; the gains in the fields follow."""
+    part, plot = stage.studio.at_machine.tuning.tuner.model, panel.bode_plot
+    assert plot is not None
+    before, gains = part.proposal, panel.manual.gains.texts
+    aside = plot.phase.getViewBox().viewRange()[0][0] + 0.5
+    drag(plot.phase.viewport(), at(plot.phase, aside, plot.margin.value()), at(plot.phase, aside, 60.0 - 180.0))
+    worked(stage, lambda: part.proposal is not before)
+    assert float(panel.model.phase.text()) == pytest.approx(60, abs=4)
+    assert part.proposal is not None and part.proposal.margins is not None and part.proposal.gains is not None
+    assert part.proposal.margins.phase == pytest.approx(float(panel.model.phase.text()), abs=5)
+    assert panel.manual.gains.texts != gains
+    assert float(panel.manual.gains.fields["KD"].text()) == part.proposal.gains.kd
+    hertz, phase, before = plot.crossover.value(), plot.margin.value(), part.proposal
+    plot.gain.setFocus()
+    control = Qt.KeyboardModifier.ControlModifier
+    QTest.keyClick(plot.gain, Qt.Key.Key_Right, control)  # 2 % more
+    QTest.keyClick(plot.phase, Qt.Key.Key_Down, control | Qt.KeyboardModifier.ShiftModifier)  # ten degrees less
+    worked(stage, lambda: part.proposal is not before and not part.designing)
+    assert plot.crossover.value() == pytest.approx(hertz + math.log10(1.02)) == plot.below.value()
+    assert plot.margin.value() == pytest.approx(phase - 10)
+    assert float(panel.model.phase.text()) == pytest.approx(phase - 10 + 180, abs=0.6)
+
+
+def _beyond_reach(stage: Stage, panel: TunerPanel) -> None:
+    """Dragged to the end of the plot: said why not and what can be had; nothing is run, by keys it goes back."""
+    part, plot = stage.studio.at_machine.tuning.tuner.model, panel.bode_plot
+    assert plot is not None
+    before = part.proposal
+    (_, right), _ = plot.gain.getViewBox().viewRange()
+    drag(plot.gain.viewport(), at(plot.gain, plot.crossover.value(), 30.0), at(plot.gain, right - 0.02, 30.0))
+    worked(stage, lambda: part.proposal is not before)
+    assert part.proposal is not None and part.proposal.gains is None
+    assert "nearest that can be reached" in panel.model.result.text() or "too near" in panel.model.result.text()
+    stage.go()
+    assert not panel.model.run.isEnabled() and "ask for one that can be reached" in panel.model.run.toolTip()
+    before = part.proposal
+    typed(panel.model.crossover, "20")
+    click(panel.model.apply)
+    worked(stage, lambda: part.proposal is not before)
+    assert part.proposal.gains is not None
+
+
+def at(plot: Any, x: float, y: float) -> QPoint:
+    """Where a place of a diagram lies in its viewport."""
+    point: QPoint = plot.getViewBox().mapViewToDevice(QPointF(x, y)).toPoint()
+    return point
 
 
 @pytest.mark.skipif(not is_long(), reason="identifying takes seconds; the everyday run does it once")

@@ -14,10 +14,10 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from device.tuning.loop import Bode, Margins
+from device.tuning.loop import Bode
 from widgets.parts.look import look
 from widgets.parts.plot import Plot
-from widgets.tuner.plots import empty, stroke
+from widgets.tuner.plots import stroke
 
 HERTZ = 2 * math.pi  # rad/s
 HERTZ_TICKS = [digit * 10.0**decade for decade in range(-2, 4) for digit in (1, 2, 5)]
@@ -84,7 +84,7 @@ class BodePlot(QWidget):
     def __init__(self, gain: BodePart, phase: BodePart, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.gain, self.phase = gain, phase
-        self._shown: tuple[Bode, Margins] | None = None
+        self._shown: Bode | None = None
         self._crossover, self._margin = 0.0, 0.0
         self.crossover, self.below, self.margin = Handle(True), Handle(True), Handle(False)
         self.below.label.setVisible(False)  # its value stands beside the upper one
@@ -102,18 +102,19 @@ class BodePlot(QWidget):
             plot.setAccessibleDescription(
                 "Ctrl with left and right moves the crossover, with up and down the phase margin; Shift: ten times."
             )
-        self.gain.addLegend(offset=(-8, 8))
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.gain, 1)
         column.addWidget(self.phase, 1)
-        self.draw()
+        self._make_items()
+        self.dress()
+        self._draw()
 
-    def show_bode(self, bode: Bode | None, margins: Margins | None) -> None:
+    def show_bode(self, bode: Bode | None) -> None:
         """Another loop, or none."""
-        self._shown = (bode, margins) if bode is not None and margins is not None else None
-        self.draw()
+        self._shown = bode
+        self._draw()
 
     def show_target(self, crossover: float, phase: float) -> None:
         """Where the handles stand: rad/s and degrees."""
@@ -141,39 +142,51 @@ class BodePlot(QWidget):
 
     # ---- drawn
 
-    def draw(self) -> None:
-        """Everything anew, in the colours of now."""
-        now = look()
-        empty(self.gain)
-        empty(self.phase)
-        self.gain.name_sides("", "Gain, dB")
-        self.phase.name_sides("Frequency, Hz", "Phase, °")
-        legend = self.gain.getPlotItem().legend
-        legend.clear()
-        legend.setLabelTextColor(now.colour("text"))
-        legend.setLabelTextSize(f"{now.fonts['small_points']:g}pt")
-        for line in (self.crossover, self.below, self.margin):
-            line.dress()
-        if self._shown is not None:
-            self._draw(*self._shown)
-
-    def _draw(self, bode: Bode, _: Margins) -> None:
-        now, seen = look(), self._seen(bode)
-        hertz = bode.frequency[seen] / HERTZ
-        for values, name, token, width in (
-            (bode.plant, "Axis", "quiet", 1.4),
-            (bode.loop, "Loop", "axis_x", 2.2),
-        ):
-            line = stroke(now.colour(token), False, width)
-            self.gain.plot(hertz, 20 * np.log10(np.abs(values[seen]) + 1e-12), pen=line, name=name)
-            self.phase.plot(hertz, _phase(values)[seen], pen=line)
-        for plot, level in ((self.gain, 0.0), (self.phase, -180.0)):
-            plot.addItem(pyqtgraph.InfiniteLine(pos=level, angle=0, pen=stroke(now.colour("border"), True, 1.0)))
-        for line in (self.crossover, self.below):
-            line.setBounds((math.log10(hertz[0]), math.log10(hertz[-1])))
+    def _make_items(self) -> None:
+        """Everything once; what changes are the values, which is quicker than drawing anew."""
+        self.gain.addLegend(offset=(-8, 8))
+        self.curves = {
+            name: (self.gain.plot(name=name), self.phase.plot()) for name in ("Axis", "Loop")
+        }  # gain and phase of each
+        self._levels = [pyqtgraph.InfiniteLine(pos=level, angle=0) for level in (0.0, -180.0)]
+        self.gain.addItem(self._levels[0])
+        self.phase.addItem(self._levels[1])
         self.gain.addItem(self.crossover)
         for handle in (self.below, self.margin):
             self.phase.addItem(handle)
+        self.gain.name_sides("", "Gain, dB")
+        self.phase.name_sides("Frequency, Hz", "Phase, °")
+
+    def dress(self) -> None:
+        """In the colours of now."""
+        now = look()
+        for name, token, width in (("Axis", "quiet", 1.4), ("Loop", "axis_x", 2.2)):
+            for curve in self.curves[name]:
+                curve.setPen(stroke(now.colour(token), False, width))
+        for level in self._levels:
+            level.setPen(stroke(now.colour("border"), True, 1.0))
+        for line in (self.crossover, self.below, self.margin):
+            line.dress()
+        legend = self.gain.getPlotItem().legend
+        legend.setLabelTextColor(now.colour("text"))
+        legend.setLabelTextSize(f"{now.fonts['small_points']:g}pt")
+
+    def _draw(self) -> None:
+        for line in (self.crossover, self.below, self.margin):
+            line.setVisible(self._shown is not None)
+        if self._shown is None:
+            for curve in (*self.curves["Axis"], *self.curves["Loop"]):
+                curve.setData([], [])
+            return
+        bode = self._shown
+        seen = self._seen(bode)
+        hertz = bode.frequency[seen] / HERTZ
+        for values, name in ((bode.plant, "Axis"), (bode.loop, "Loop")):
+            gain, phase = self.curves[name]
+            gain.setData(hertz, 20 * np.log10(np.abs(values[seen]) + 1e-12))
+            phase.setData(hertz, _phase(values)[seen])
+        for line in (self.crossover, self.below):
+            line.setBounds((math.log10(hertz[0]), math.log10(hertz[-1])))
 
     def _seen(self, bode: Bode) -> slice:
         """The part that matters: two decades around the crossover, up to where the sampling ends it."""
@@ -198,8 +211,8 @@ class BodePlot(QWidget):
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
-        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "margin"):
-            self.draw()
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "_levels"):
+            self.dress()
 
 
 def _phase(values: np.ndarray) -> np.ndarray:
