@@ -23,6 +23,7 @@ from device.former import Former, keep, left_behind
 from device.simulator.plant import Drive, Plant
 from device.tuning.logbook import Logbook
 from tests.app.test_controls import controls, describe, name_of, reachable
+from tests.device.tuning.test_dual import MACHINES
 from tests.long import is_long, record
 from tests.rig import Rig
 from tests.stage import Stage
@@ -336,6 +337,37 @@ def test_a_drive_in_velocity_mode_is_recognised_and_refused(stage: Stage) -> Non
     worked(stage, lambda: not panel.running and "auto tune" in panel.result.text())
     assert "do not perform an auto tune; instead proceed to manual tuning" in panel.result.text()
     assert panel.automatic.trials.count() == 0 and held(stage.rig) == GAINS
+
+
+def test_a_dual_loop_is_tuned_from_the_panel_and_not_identified(stage: Stage) -> None:
+    panel = tuner(stage, plants={"X": MACHINES["play, dry"]})
+    stage.rig.type("DVX=1")
+    click(panel.buttons[MODEL])
+    stage.until(lambda: "dual loop (DV 1) can not be identified" in panel.box.words.text())
+    stage.go()
+    assert not panel.box.begin.isEnabled() and not panel.box.free.isEnabled()
+    click(panel.buttons[AUTOMATIC])
+    stage.until(lambda: panel.box.words.text().startswith("Choose the drive mode"))
+    assert "first KD is raised as far as it goes while KP and KI are 0" in panel.automatic.about.text()
+    panel.box.drive.setCurrentIndex(1)
+    stage.until(lambda: panel.box.words.text().startswith("X moves by"))
+    click(panel.box.free)
+    stage.go()
+    click(panel.box.begin)
+    stage.until(lambda: panel.automatic.trials.count() >= 2 or not panel.running, 60)
+    assert panel.automatic.trials.item(1).text().startswith("KP 0, KI 0, KD 102.375\nDual loop: KD up")  # 64 times 1.6
+    if is_long():
+        stage.until(lambda: not panel.running, 400)
+        assert panel.box.words.text() and "It settles within" in panel.automatic.result.text()
+        assert float(panel.manual.gains.fields["KP"].text()) > 6 and "Recommended gains" in panel.result.text()
+    else:
+        click(panel.box.end)
+        stage.until(lambda: not panel.running)
+    assert held(stage.rig) == GAINS and not stage.rig.moving
+    typed(panel.manual.gains.fields["KD"], "0.5")
+    stage.rig.type("DVX=0")
+    click(panel.buttons[MODEL])
+    stage.until(lambda: "Raise KD first" in panel.box.words.text())  # of the fields, which it would excite with
 
 
 def watched_ticks(stage: Stage) -> list[float]:
