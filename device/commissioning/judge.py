@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -71,6 +71,7 @@ class Moved:
     changes: int = 0  # of the reading, until it stood
     error: int = 0  # the error limit around it, counts
     encoder: int = 0  # what the encoder of a stepper moved, where there is one
+    dead: bool = False  # its reading went one count forward and the same one back, try after try
     lost: bool = False  # it followed, and with more error allowed its reading stood still
 
     @property
@@ -78,20 +79,27 @@ class Moved:
         """How far it came, in the asked direction."""
         return (self.end - self.start) * (1 if self.asked >= 0 else -1)
 
-    def after(self, before: Moved, asked: int) -> Moved:
-        """With what the reading did in the tries before, which had the same target."""
-        changes = self.changes + before.changes
-        low, high = min(self.low, before.low), max(self.high, before.high)
-        return dc.replace(self, asked=asked, start=before.start, low=low, high=high, changes=changes)
-
-    @property
-    def toggled(self) -> bool:
-        """It went one count forward and the same one back: a single count may be a movement."""
-        return self.high - self.low == 1 and self.changes > 1
-
     @property
     def furthest(self) -> int:
         return max(self.high - self.start, self.start - self.low)
+
+
+def joined(tries: Sequence[Moved], asked: int) -> Moved:
+    """Tries with the same target as one move."""
+    low, high = min(each.low for each in tries), max(each.high for each in tries)
+    changes = sum(each.changes for each in tries)
+    return dc.replace(tries[-1], asked=asked, start=tries[0].start, low=low, high=high, changes=changes)
+
+
+def toggling(tries: Sequence[Moved]) -> bool:
+    """Whether the last tries only went to and fro by one count; a single step may be a movement."""
+    low, high, changes = tries[-1].low, tries[-1].high, 0
+    for each in reversed(tries):
+        low, high = min(low, each.low), max(high, each.high)
+        if high - low > 1:
+            break
+        changes += each.changes
+    return changes > 1
 
 
 # ------------------------------------------------------------------------ by hand
@@ -265,7 +273,7 @@ def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
     if not moved.tripped and not moved.bounded and abs(moved.way - abs(moved.asked)) <= ARRIVED:
         words = f"The loop has the right polarity: the axis came {moved.way} of {abs(moved.asked)} counts and stood."
         return Finding(PASSED, words, (), facts)
-    if moved.toggled:
+    if moved.dead:
         words = "The reading only toggled by one count while the motor was driven: an encoder channel is dead."
         return Finding(FAILED, words, ENCODER_CAUSES, facts)
     if moved.lost:

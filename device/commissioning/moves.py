@@ -23,7 +23,7 @@ from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from device.backing_up import exact
 from device.commissioning.guarding import columns_of, exchange_of, guarded, power_off, switch_off
-from device.commissioning.judge import STIRRED, Moved
+from device.commissioning.judge import STIRRED, Moved, joined, toggling
 from device.download import Job
 from device.former import Former, assign
 from device.lease import CODE, COUNTS, FLAG, Exchange
@@ -107,15 +107,17 @@ def _as_set_up(c: Controller, model: Model, trial: Trial) -> Steps[None]:
 def _climbing(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> Steps[Moved]:
     """Towards one place, with larger and larger error limits as long as one of them ends it on the way."""
     target, place = former.place + trial.counts, former.place
-    before, best, stood = None, 0, 0
+    tries: list[Moved] = []
+    best, stood = 0, 0
     for error in trial.errors():
         there = yield from _driven(c, dc.replace(trial, counts=target - place, error=error), place, former, job)
-        moved = there if before is None else there.after(before, trial.counts)
+        tries.append(there)
+        moved = dc.replace(joined(tries, trial.counts), dead=toggling(tries))
         stood = stood + 1 if there.high - there.low <= 1 else 0
         lost = there.tripped and best > 2 and stood * best > STIRRED  # at once where it went far, else the second time
-        if not there.tripped or moved.toggled or lost or there.way < -RAN or error == trial.error:
+        if not there.tripped or moved.dead or lost or there.way < -RAN or error == trial.error:
             return dc.replace(moved, lost=lost)
-        before, place, best = moved, there.end, max(best, there.high - there.low)
+        place, best = there.end, max(best, there.high - there.low)
         if abs(target - place) < 2 * int(error * GROWTH) or (target - place) * trial.counts < 0:
             return moved  # what is left would not reach the error limit
     raise AssertionError  # the last of the errors returns

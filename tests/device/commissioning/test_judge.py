@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from codegen.setup import Axis, Unit
 from device.commissioning.judge import (
     Moved,
+    joined,
     judge_direction,
     judge_encoder,
     judge_polarity,
@@ -16,6 +18,7 @@ from device.commissioning.judge import (
     judge_scale,
     judge_set,
     judge_switches,
+    toggling,
 )
 from device.commissioning.judge_sine import judge_halls, judge_phases
 from device.commissioning.record import Finding, Record, Verdict, keep, resumed
@@ -130,7 +133,7 @@ GOOD = Moved(300, 0, 298, 300, 0, 301, 1, False)
         (Moved(300, 0, -180, 30, -180, 0, 8, True), "Wrong polarity"),
         (Moved(300, 0, 400, 40, 0, 400, 8, True), "Wrong polarity"),
         (Moved(300, 0, 700, 300, 0, 700, 1, False, bounded=True), "Wrong polarity"),
-        (Moved(300, 0, 1, 61, 0, 1, 8, True, changes=3), "toggled by one count"),
+        (Moved(300, 0, 1, 61, 0, 1, 8, True, changes=3, dead=True), "toggled by one count"),
         (Moved(300, 0, 1, 61, 0, 1, 8, True, changes=1), "did not move"),
         (Moved(300, 0, 0, 61, 0, 0, 8, True), "did not move"),
         (Moved(300, 0, 40, 101, 0, 40, 8, True), "stopped short"),
@@ -148,6 +151,22 @@ def test_wrong_polarity_says_every_way_out() -> None:
     advice = " ".join(judge_polarity(Moved(300, 0, -180, 30, -180, 0, 8, True)).advice)
     assert all(word in advice for word in ("leads", "CHA and CHB", "MT -1", "CE 2", "master reset"))  # l.679-683
     assert "phases" in judge_polarity(Moved(300, 0, -180, 30, -180, 0, 8, True), sine=True).advice[0]
+
+
+def test_a_channel_that_dies_toggles_in_one_try_or_over_several() -> None:
+    """Monotone single counts are a movement; the same count to and fro is a dead channel (l.606)."""
+
+    def tried(*places: int) -> Moved:
+        changes = sum(here != there for here, there in pairwise(places))
+        return Moved(300, places[0], places[-1], 10, min(places), max(places), 8, True, changes=changes)
+
+    assert toggling([tried(0, 1, 0)])
+    assert toggling([tried(0, 5, 9), tried(9, 9), tried(9, 10), tried(10, 10), tried(10, 9)])
+    assert not toggling([tried(0, 1), tried(1, 2), tried(2, 3)])
+    assert not toggling([tried(0, 1), tried(1, 1), tried(1, 1)])
+    assert not toggling([tried(0, 1, 0), tried(0, 4, 9)])
+    whole = joined([tried(0, 4), tried(4, 3, 12)], 300)
+    assert (whole.start, whole.end, whole.low, whole.high, whole.changes) == (0, 12, 0, 12, 3)
 
 
 def test_the_direction_is_the_persons_word() -> None:
