@@ -10,7 +10,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from codegen.instructions import ALL, Instruction, MotionParameters
-from tests.widgets.form.clipping import FILLINGS, MODELS, PANEL, cut, open_dialog, settle
+from tests.widgets.form.clipping import FORMS, PANEL, cut, open_dialog, settle
 from widgets.form import room
 
 EVERY = pytest.mark.parametrize("kind", ALL, ids=lambda kind: kind.__name__)
@@ -23,8 +23,7 @@ def panel(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @EVERY
-@pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("filling", FILLINGS)
+@pytest.mark.parametrize(("model", "filling"), FORMS)
 def test_a_dialog_shows_everything_whole(qtbot: QtBot, kind: type[Instruction], model: str, filling: str) -> None:
     dialog = open_dialog(kind, model, filling)
     qtbot.addWidget(dialog)

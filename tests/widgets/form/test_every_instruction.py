@@ -16,9 +16,6 @@ from widgets.form.fields_form import FieldsForm
 from widgets.form.form import InstructionForm
 
 EVERY = pytest.mark.parametrize("kind", ALL, ids=lambda kind: kind.__name__)
-EVERY_FIELD = pytest.mark.parametrize(
-    ("kind", "name"), [(kind, name) for kind in ALL for name in fields.fields_of(kind)], ids=str
-)
 
 
 def form_of(qtbot: QtBot, instruction: Instruction) -> FieldsForm:
@@ -58,33 +55,35 @@ def test_showing_the_same_value_twice_changes_nothing(qtbot: QtBot, kind: type[I
     assert said == []
 
 
-@EVERY_FIELD
-def test_a_changed_value_comes_out_as_the_right_frozen_instruction(
-    qtbot: QtBot, kind: type[Instruction], name: str
-) -> None:
+@EVERY
+def test_a_changed_value_comes_out_as_the_right_frozen_instruction(qtbot: QtBot, kind: type[Instruction]) -> None:
     form = form_of(qtbot, kind())
-    wanted = with_value(kind(), name, other_value(fields.fields_of(kind)[name], getattr(kind(), name)))
     said: list[Instruction] = []
     form.edited.connect(said.append)
-    axis = "X" if isinstance(fields.fields_of(kind)[name], fields.PerAxis) else ""
-    value = getattr(wanted, name)
-    form.cells[name, axis].editor.setValue(value[0] if axis else value)
-    assert said == []  # setValue is silent: only the person's own change is an edit
-    form.cells[name, axis].editor.changed.emit(value[0] if axis else value)
-    assert said == [wanted]
-    assert form.item == wanted
-    assert hash(form.item) == hash(wanted)
+    for name, field in fields.fields_of(kind).items():
+        form.show_item(kind())
+        wanted = with_value(kind(), name, other_value(field, getattr(kind(), name)))
+        axis = "X" if isinstance(field, fields.PerAxis) else ""
+        value = getattr(wanted, name)
+        form.cells[name, axis].editor.setValue(value[0] if axis else value)
+        assert said == [], name  # setValue is silent: only the person's own change is an edit
+        form.cells[name, axis].editor.changed.emit(value[0] if axis else value)
+        assert said == [wanted], name
+        assert form.item == wanted
+        assert hash(form.item) == hash(wanted)
+        said.clear()
 
 
-@EVERY_FIELD
-def test_a_value_shown_is_read_back_the_same(qtbot: QtBot, kind: type[Instruction], name: str) -> None:
-    field = fields.fields_of(kind)[name]
-    value = other_value(field, getattr(kind(), name))
-    form = form_of(qtbot, with_value(kind(), name, value))
-    if isinstance(field, fields.PerAxis):
-        assert [form.cells[name, letter].editor.value() for letter in "XY"] == list(value[:2])
-    else:
-        assert form.cells[name, ""].editor.value() == value
+@EVERY
+def test_a_value_shown_is_read_back_the_same(qtbot: QtBot, kind: type[Instruction]) -> None:
+    form = form_of(qtbot, kind())
+    for name, field in fields.fields_of(kind).items():
+        value = other_value(field, getattr(kind(), name))
+        form.show_item(with_value(kind(), name, value))
+        if isinstance(field, fields.PerAxis):
+            assert [form.cells[name, letter].editor.value() for letter in "XY"] == list(value[:2])
+        else:
+            assert form.cells[name, ""].editor.value() == value, name
 
 
 @EVERY
