@@ -65,7 +65,10 @@ class Book(QObject):
         serial = (controller.identity.serial or 0) if controller.identity is not None else 0
         file = file_for(self._folder, serial, setup.name, setup.model)
         if self._book is None or self._book.file != file:
-            self._book = Logbook(file)
+            book = self._book = Logbook(file)
+            if book.skipped:
+                words = "A line" if book.skipped == 1 else f"{book.skipped} lines"
+                self.said.emit(f"{words} of the logbook {file.name} can not be read and stay as they are.")
         return self._book
 
     @property

@@ -121,7 +121,8 @@ def _text(number: float) -> str:
 def _number(cell: str, line: int) -> float:
     if not cell.strip():
         return math.nan
-    found = float(cell) if NUMBER.fullmatch(cell.strip()) else math.inf
+    text = cell.strip()
+    found = float(text) if NUMBER.fullmatch(text) else math.inf
     if math.isinf(found):
         raise FileUnreadable(f"line {line}: “{cell.strip()[:20]}” is not a number")
     return found

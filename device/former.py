@@ -100,7 +100,7 @@ def _read(file: Path) -> Former | None:
         kind, who, when = (str(told[name]) for name in ("kind", "who", "when"))
         axis, model = str(told["axis"]), str(told["model"])
         return Former(axis, model, int(told["serial"]), kind, who, when, int(told["place"]), values, file)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         return None  # written by another version, or damaged: nothing in it can be trusted
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 TITLES = {"manual": "Manual", "automatic": "Automatic", "model": "Model-based"}
 TUNED = ("kp", "ki", "kd", "fv", "fa")
 PLACES = 4  # decimals of a kept volt
+AXES = ("X", "Y", "Z", "W")
+MISSING = ("rise_time", "settling_time")  # of the metrics: there may be none
 
 
 @dc.dataclass(frozen=True, eq=False)
@@ -67,14 +69,33 @@ def to_data(entry: Entry) -> dict[str, Any]:
 
 
 def from_data(data: Mapping[str, Any]) -> Entry:
-    """What a file says; KeyError, TypeError or ValueError when it is no run."""
-    response = Response(float(data["period"]), _array(data["commanded"]), _array(data["actual"]), _array(data["volts"]))
+    """What a file says; one of the errors that `Logbook` expects when it is no run."""
+    commanded, actual, volts = (_array(data[name]) for name in ("commanded", "actual", "volts"))
+    axis, period = str(data["axis"]), _real(data["period"])
+    if axis not in AXES or period <= 0 or not 2 <= len(commanded) == len(actual) == len(volts):
+        raise ValueError("no response of an axis")
+    gains = Gains(**{name: _real(value) for name, value in data["gains"].items()})
     metrics = data["metrics"]
+    if metrics is not None:
+        metrics = Metrics(**{name: _real(value, name in MISSING) for name, value in metrics.items()})
     return Entry(
-        int(data["number"]), str(data["when"]), str(data["axis"]), str(data["method"]), Gains(**data["gains"]),
-        int(data["step"]), response, None if metrics is None else Metrics(**metrics), str(data["words"]),
-        dict(data["estimate"]), str(data["note"]), str(data["controller"]),
+        int(_real(data["number"])), str(data["when"]), axis, str(data["method"]), gains, int(_real(data["step"])),
+        Response(period, commanded, actual, volts), metrics, str(data["words"]), dict(data["estimate"]),
+        str(data["note"]), str(data["controller"]),
     )  # fmt: skip
+
+
+@overload
+def _real(value: Any, missing: Literal[False] = False) -> float: ...
+@overload
+def _real(value: Any, missing: bool) -> Any: ...
+def _real(value: Any, missing: bool = False) -> Any:
+    """A number, or None where it may be `missing`; anything else would only be noticed when it is drawn."""
+    if value is None and missing:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise ValueError("no number")
+    return float(value)
 
 
 def _kept(values: NDArray[np.float64], places: int) -> list[float | None]:

@@ -56,16 +56,19 @@ class Logbook:
             return file.read(1) == b"\n"
 
     def _load(self) -> None:
-        if not self.file.is_file():
+        try:
+            data = self.file.read_bytes() if self.file.exists() else b""
+        except OSError:  # it may not be read, or is no file
+            self.skipped = 1
             return
-        for line in self.file.read_bytes().splitlines():
+        for line in data.splitlines():
             try:
-                data = json.loads(line)
-                if "run" in data:
-                    self.entries += (from_data(data["run"]),)
+                told = json.loads(line)
+                if "run" in told:
+                    self.entries += (from_data(told["run"]),)
                 else:
-                    self._noted(int(data["note"]), str(data["text"]))
-            except (ValueError, KeyError, TypeError):
+                    self._noted(int(told["note"]), str(told["text"]))
+            except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
                 self.skipped += 1
 
 
