@@ -9,11 +9,12 @@ from typing import Any
 
 from PySide6.QtCore import QObject
 
+from app.asked import AskedOfMachine
 from app.connection import Connection
 from app.run import Ask
 from app.tick import Tick, failure_of
 from codegen.setup import Setup
-from codegen.teach import Row, Table, counts_of
+from codegen.teach import BYTE, Row, Table, counts_of
 from codegen.teach_drive import slow
 from device.api import Places
 from device.jog import told
@@ -37,7 +38,8 @@ class TeachPlay(QObject):
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._connection, self._tick, self._panel, self._ask, self._homed = connection, tick, panel, ask, homed
+        self._connection, self._tick, self._panel, self._homed = connection, tick, panel, homed
+        self._ask = AskedOfMachine(connection, ask, lambda why: panel.show_result(why, good=False))
         self.playing: PlayBack | None = None
         panel.play_wanted.connect(self.play)
         panel.next_wanted.connect(self._next)
@@ -78,9 +80,7 @@ class TeachPlay(QObject):
         ]
         text = f"First slowly, at {speed} {table.units[0]}/s, to the place of row {number + 1}: {', '.join(ways)}. "
         text += "Each row then waits for you." if step else f"Then {len(table)} rows without waiting for you."
-        outputs = sorted({row.output for row in table.rows if row.output}, key=str)
-        if outputs:
-            text += f" It switches outputs: {', '.join(outputs)}."
+        text += _switched({row.output for row in table.rows if row.output})
         unknown = [letter for letter in "XY" if letter not in set(self._homed())]
         if unknown:
             text += f" {' and '.join(unknown)} not seen homed: places may be anywhere."
@@ -128,3 +128,13 @@ class TeachPlay(QObject):
 def _first(table: Table) -> tuple[int, Row]:
     """The first row with a place."""
     return next((number, row) for number, row in enumerate(table.rows) if row.moves)
+
+
+def _switched(outputs: Iterable[str]) -> str:
+    """Which outputs are switched, as a sentence, or nothing."""
+    every = sorted(outputs)
+    alone = sorted({text.lstrip("-") for text in every if not BYTE.match(text)}, key=int)
+    parts = [f"output{'s' if len(alone) > 1 else ''} {', '.join(alone)}"] if alone else []
+    whole = [text for text in every if BYTE.match(text)]
+    parts += [f"all outputs as {' and '.join(whole)}"] if whole else []
+    return f" It switches {' and '.join(parts)}." if parts else ""

@@ -11,6 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app.asked import ANOTHER
 from codegen import teach_file
 from codegen.setup import Unit
 from codegen.teach import Row, Table
@@ -229,7 +230,14 @@ def test_play_back_says_where_it_goes_asks_steps_and_stops(bench: Bench) -> None
     bench.click(bench.parts.play)
     bench.stage.go(10)
     bench.answer("Play back?", "Play back")
-    for words in ("at 5 mm/s", "row 1", "X from 0 mm to 8 mm", "Y from 0 mm to 4 mm", "not seen homed", "outputs: 2"):
+    for words in (
+        "at 5 mm/s",
+        "row 1",
+        "X from 0 mm to 8 mm",
+        "Y from 0 mm to 4 mm",
+        "not seen homed",
+        "It switches output 2.",
+    ):
         assert words in bench.question, bench.question  # a quarter of 20 mm/s, the slower of both
     for expected in ((8000, 4000), (10_000, 4000)):
         bench.stage.until(lambda: bench.parts.next.isEnabled())
@@ -243,3 +251,37 @@ def test_play_back_says_where_it_goes_asks_steps_and_stops(bench: Bench) -> None
     bench.stage.until(lambda: "stopped in row 3" in bench.panel.words())
     assert not bench.moving and bench.places[0] < 45_000
     assert not bench.parts.halt.isEnabled()
+
+
+def test_a_question_answered_too_late_plays_nothing_and_choices_are_there_again(bench: Bench, tmp_path: Path) -> None:
+    bench.connect()
+    bench.stage.studio.at_machine.teach.change(Table(("mm", "mm"), (Row(x="8", y="4", output="-2", **PACE),)))
+    bench.fill(bench.parts.of_stick, "dead", "22")
+    bench.fill(bench.parts.of_stick, "full", "35")
+    bench.fill(bench.parts.of_rows, "tolerance", "0.25")
+    source = bench.parts.source
+    source.setFocus()
+    QTest.keyClick(source, Qt.Key.Key_End)
+    bench.click(bench.parts.io_control)
+    bench.click(bench.parts.play)
+    bench.stage.go(10)
+    bench.stage.connect("simulator", "ssc2")
+    bench.stage.go(10)
+    bench.answer("Play back?", "Play back")
+    assert "It switches output 2." in bench.question
+    bench.stage.go(20)
+    assert bench.panel.words() == ANOTHER and bench.places == (0, 0) and not bench.moving
+    again = Bench(tmp_path)  # the same machine at the next start
+    try:
+        found = again.panel.driving
+        assert (found.dead, found.full, found.tolerance) == ("22", "35", "0.25")
+        assert again.panel.source == PAD == bench.panel.source
+        document = again.stage.studio.session.document
+        axis = dc.replace(document.setup.axes[0], counts_per_unit="1")
+        setup = dc.replace(document.setup, axes=(axis,) * 4)
+        again.stage.studio.session.set_document(dc.replace(document, setup=setup), "Table")
+        again.stage.go()
+        assert again.panel.driving.full != "35"  # another machine: slow again
+        assert again.panel.driving.dead == "22"  # the same stick
+    finally:
+        again.stage.clear_away()
