@@ -7,11 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeVar
 
+from codegen.models import MODELS
 from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse_line
 from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.slow_mark import BURNS, FULL, percent_of
 from device.asking import Listing
+from device.backup import parameter_names
 from device.door import LISTS, choose, only_reads
 from device.download import upload_steps
 from device.identify import fence, read_once
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
+ENDING = frozenset(["MO", "ST", "AB", "HX", "MG"])
+ACTING = frozenset(["AF", "CE", "MT", "OF"])  # may drive a motor at once
 ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SETTLING = "settling"  # who sends what was in effect before a STOP: that starts nothing
@@ -216,9 +220,11 @@ def sent(controller: Controller, data: bytes, source: str) -> None:
     """Keeps account of what a line changes: a program started, edited, erased; the port turned into a data port."""
     if source in ("poll", "stop") or not data.endswith(b"\r") or not data.isascii():
         return
-    if controller.stop_state is StopState.STOPPED and source != SETTLING and not only_reads(data):
+    statements = parse_line(data[:-1].decode("ascii")).statements
+    begins = source != SETTLING and not only_reads(data) and not all(map(starts_nothing, statements))
+    if controller.stop_state is StopState.STOPPED and begins:
         controller.show_stop(StopState.READY)
-    for statement in parse_line(data[:-1].decode("ascii")).statements:
+    for statement in statements:
         if not isinstance(statement, nodes.Command):
             continue
         if statement.name == "XQ":
@@ -229,6 +235,14 @@ def sent(controller: Controller, data: bytes, source: str) -> None:
             third = statement.arguments[2]
             controller.waiting.data_mode = isinstance(third, nodes.Number) and third.scaled != 0
             controller.door.question = controller.waiting.question
+
+
+def starts_nothing(statement: nodes.Statement) -> bool:
+    """Whether it ends something, or only sets what a later start will use."""
+    if not isinstance(statement, nodes.Command):
+        return isinstance(statement, nodes.Nothing)
+    settings = {name for name in parameter_names(MODELS["ssc4"]) if name not in ACTING}
+    return statement.name in ENDING or statement.name in settings
 
 
 def _target(statement: nodes.Command) -> str:

@@ -231,3 +231,15 @@ def test_other_kinds_of_motion_stand_still_too(moving: Callable[[Bench], None]) 
     bench.run(0.5)
     assert [axis["commanded"] for axis in bench.simulation.state()["axes"].values()] == before
     assert bench.still()
+
+
+@pytest.mark.parametrize("starts", ["SH", "OF 1", "MT -1", "SB 1", "PR 100", "XQ", "SP 5000;BG X"])
+def test_a_confirmed_stop_stands_until_something_may_begin(starts: str) -> None:
+    bench = set_up("jog")
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 2.0)
+    for command in ("MO", "SP 2000;KP 7", "KPX=6;FL 5000;OE 1", "ST;HX", "TP"):
+        bench.ask(command)
+        assert bench.controller.stop_state is StopState.STOPPED
+    bench.result(bench.controller.ask(starts))
+    assert bench.controller.stop_state is StopState.READY
