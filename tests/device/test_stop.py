@@ -195,7 +195,7 @@ def test_after_the_next_command_the_button_is_ready_again() -> None:
     bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED)
     bench.ask("TPX")
     assert bench.controller.stop_state is StopState.STOPPED
-    bench.ask("SP 1000")
+    bench.ask("SH")
     assert bench.controller.stop_state is StopState.READY
 
 
