@@ -34,26 +34,6 @@ MEASURED_S = 0.25  # between two readings of a live roll, or two of its spectra
 HELD = "The picture is held; Fit or a double click follows again."
 
 
-class Parts:
-    """What the scope is made of."""
-
-    bar: Bar
-    choices: Choices
-    chart: Chart
-    readings: Readings
-    kept: Kept
-
-    def pieces(self) -> Iterator[None]:
-        """One after the other: all at once the window would stand still."""
-        self.bar = Bar()
-        yield
-        self.choices = Choices()
-        yield
-        self.chart = Chart()
-        self.readings, self.kept = Readings(), Kept()
-        yield
-
-
 class Body(QWidget):
     """Emits what the person wants; is told of captures, progress and the live roll."""
 
@@ -65,27 +45,41 @@ class Body(QWidget):
     open_wanted = Signal()
     chosen = Signal()  # something that is remembered
 
-    def __init__(self, parts: Parts | None = None, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None, at_once: bool = True) -> None:
         super().__init__(parent)
-        if parts is None:
-            parts = Parts()
-            Pieces(parts.pieces()).finish()
-        self.bar, self.choices, self.chart = parts.bar, parts.choices, parts.chart
-        self.readings, self.kept = parts.readings, parts.kept
-        self.between, self.empty = QLabel(), QLabel(EMPTY)
-        self.start = self.bar.capture
         self._setup: Setup | None = None
         self._partial: Capture | None = None
         self._roll: Roll | None = None
         self._reason = ""
-        self._views = Views(self.choices)
         self.picture: Picture | None = None
         self._following = True
         self._window = (0.0, 1.0)  # the stretch of time of the live picture
         self._measured_at = -math.inf
         self._room = (True, True)
+        self.making = Pieces(self._pieces())
+        if at_once:
+            self.making.finish()
+
+    def _pieces(self) -> Iterator[None]:
+        """From the outside inwards: what gets another parent is dressed anew with all that is in it."""
         self._lay_out()
+        yield
+        self.bar = Bar(self)
+        self.start = self.bar.capture
+        self._whole.insertWidget(0, self.bar)
+        yield
+        self.choices = Choices(self.choices_side.viewport())
+        self.choices_side.setWidget(self.choices)
+        yield
+        self.chart = Chart(self)
+        self._middle.insertWidget(0, self.chart, 1)
+        yield
+        self.readings, self.kept = Readings(self), Kept(self)
+        self._beside.addWidget(self.readings, 1)
+        self.side.addTab(self.kept, "Captures")
+        self._views = Views(self.choices)
         self._connect()
+        self._fit_room(self.width())
         self.redraw()
 
     # -------------------------------------------------------------------- told
@@ -305,43 +299,34 @@ class Body(QWidget):
     # -------------------------------------------------------------------- joining
 
     def _lay_out(self) -> None:
-        scroll = QScrollArea()
-        scroll.setWidget(self.choices)
+        self._whole = QVBoxLayout(self)
+        self._whole.setContentsMargins(0, 0, 0, 0)
+        self._whole.setSpacing(6)
+        parts = QSplitter(self)
+        self._whole.addWidget(parts, 1)
+        scroll = self.choices_side = QScrollArea(parts)
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         scroll.setAccessibleName("What is captured")
         scroll.setMinimumWidth(230)
-        middle = QWidget()
-        column = QVBoxLayout(middle)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.chart, 1)
-        column.addWidget(self.empty, 1)
+        middle, self.empty = QWidget(parts), QLabel(EMPTY)
+        self._middle = QVBoxLayout(middle)
+        self._middle.setContentsMargins(0, 0, 0, 0)
+        self._middle.addWidget(self.empty, 1)
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.empty.setWordWrap(True)
         self.empty.setProperty("role", "quiet")
-        right, readings = QTabWidget(), QWidget()
-        inner = QVBoxLayout(readings)
-        inner.setContentsMargins(0, 4, 0, 0)
-        inner.addWidget(self.between)
-        inner.addWidget(self.readings, 1)
+        self.side, readings, self.between = QTabWidget(parts), QWidget(), QLabel()
+        self.side.addTab(readings, "Readings")
+        self.side.setAccessibleName("Readings and captures")
+        self._beside = QVBoxLayout(readings)
+        self._beside.setContentsMargins(0, 4, 0, 0)
+        self._beside.addWidget(self.between)
         self.between.setWordWrap(True)
-        right.addTab(readings, "Readings")
-        right.addTab(self.kept, "Captures")
-        right.setAccessibleName("Readings and captures")
-        self.side = right
-        parts = QSplitter()
-        for part in (scroll, middle, right):
-            parts.addWidget(part)
-        self.choices_side = scroll
         parts.setStretchFactor(1, 1)
         parts.setSizes([270, 700, 330])
         parts.setCollapsible(1, False)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(6)
-        whole.addWidget(self.bar)
-        whole.addWidget(parts, 1)
 
     def _connect(self) -> None:
         bar, chart = self.bar, self.chart
@@ -370,7 +355,11 @@ class Body(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """What stands beside the curves gives way where there is little room, until the person says otherwise."""
         super().resizeEvent(event)
-        room = (event.size().width() >= LEAST_LEFT, event.size().width() >= LEAST_RIGHT)
+        if self.making.done:
+            self._fit_room(event.size().width())
+
+    def _fit_room(self, width: int) -> None:
+        room = (width >= LEAST_LEFT, width >= LEAST_RIGHT)
         if room != self._room:
             self._room = room
             self.bar.sides_left.setChecked(room[0])

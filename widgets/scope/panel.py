@@ -32,20 +32,13 @@ class ScopePanel(Panel):
         self.setMinimumSize(420, 160)
 
     def pieces(self) -> Iterator[None]:
-        """Bar, choices, curves, readings; then they come in sight side by side."""
-        from widgets.scope.body import Body, Parts
+        """Bar, choices, curves and readings, one after the other."""
+        from widgets.scope.body import Body
 
-        parts = Parts()
-        yield from parts.pieces()
-        body = Body(parts)
-        yield
-        beside = ((body.choices_side, body.bar.sides_left), (body.side, body.bar.sides_right))
-        for side, _ in beside:
-            side.hide()
+        body = Body(self, at_once=False)
         self._column.addWidget(body)
-        for side, wanted in beside:
+        while not body.making.step():
             yield
-            side.setVisible(wanted.isChecked())
         self.body = body
         self.setFocusProxy(body.start)
         self._tell()
