@@ -15,12 +15,13 @@ from app.connection import Connection
 from app.run import Ask
 from app.tick import Tick, failure_of
 from codegen.disk import save_text
+from device.wire import FRAME_COLUMNS
 from widgets.parts.files import ask_open, ask_save
 from widgets.values.panel import ValuesPanel
 from widgets.values.typed import assignment
 
 if TYPE_CHECKING:
-    from device.values import Value, Values
+    from device.values import Elements, Value, Values
 
 RECIPES = "Recipes (*.tlr)"
 KIND = "twoletter recipe"
@@ -45,6 +46,9 @@ class Variables(QObject):
         super().__init__(parent)
         self._connection, self._tick, self._panel, self._folder = connection, tick, panel, folder
         self._ask = AskedOfMachine(connection, ask, lambda why: panel.say(why, good=False))
+        self._elements: Elements | None = None  # an array that is being read
+        self._shown = 0  # of its elements
+        tick.each(self._show_elements)
         panel.names_wanted.connect(self.read)
         panel.values_wanted.connect(self._read_values)
         panel.array_wanted.connect(self._read_array)
@@ -76,18 +80,42 @@ class Variables(QObject):
         from codegen.difference_values import number_text
         from device.values import letters_of
 
-        self._panel.show_values({name: (number_text(each), letters_of(each)) for name, each in values.items()})
+        told = {name: (number_text(each), letters_of(each)) for name, each in values.items()}
+        self._panel.show_values(told)
+        for name, (number, _) in told.items():
+            self._panel.show_element(name, number)
 
     def _read_array(self, name: str) -> None:
+        """What comes is shown while it comes; another array ends it."""
+        from device.values import Elements
+
+        if self._elements is not None:
+            self._elements.wanted = False
+        elements = self._elements = Elements(name)
+        self._shown = 0
+
+        def done(future: Future[Any]) -> None:
+            if elements is self._elements:
+                failure = failure_of(future)
+                self._show_elements()
+                self._elements = None
+                self._panel.say(failure, good=not failure)
+
+        self._tick.when_done(self._values.elements(elements), done)
+
+    def _show_elements(self) -> None:
+        """With every tick: the elements that have come since."""
         from codegen.difference_values import number_text
 
-        self._panel.say(f"Reading {name}…")
-
-        def done(values: Sequence[Value]) -> None:
-            self._panel.say("")
-            self._panel.show_elements(name, [number_text(each) for each in values])
-
-        self._expect(self._values.elements(name), done)
+        reading = self._elements
+        if reading is None:
+            return
+        count, total = len(reading.values), reading.total
+        self._panel.say(f"Reading {reading.name}: {count} of {total}…" if total else f"Reading {reading.name}…")
+        if count > self._shown:
+            new = [number_text(each) for each in reading.values[self._shown : count]]
+            self._panel.show_elements(reading.name, new, self._shown, total)
+            self._shown = count
 
     def _set(self, name: str, text: str) -> None:
         command, problem = assignment(name, text)
@@ -97,11 +125,7 @@ class Variables(QObject):
 
         def done(reply: Any) -> None:
             self._panel.say("" if reply.accepted else f"{command}: {reply.reason}", good=reply.accepted)
-            array, bracket, _ = name.partition("[")
-            if bracket:
-                self._read_array(array)
-            else:
-                self._read_values([name])
+            self._read_values([name])
 
         self._expect(self._connection.controller.ask(command), done)
 
@@ -125,21 +149,39 @@ class Variables(QObject):
         ask_save(self._panel.window(), "Save recipe", RECIPES, self.save_recipe, proposed, "tlr")
 
     def save_recipe(self, path: Path) -> None:
-        """All variables as they are in the controller now."""
-        names = self._panel.names
+        """All variables and arrays as they are in the controller now."""
+        names, arrays = self._panel.names, self._panel.arrays
 
-        def done(values: Mapping[str, Value]) -> None:
-            from codegen.difference_values import number_text
+        def read(values: Mapping[str, Value]) -> None:
+            self._save_arrays(path, dict(values), list(arrays))
 
-            text = recipe_text({name: number_text(each) for name, each in sorted(values.items())})
-            try:
-                save_text(path, text)
-            except OSError as reason:
-                self._panel.say(f"{path.name} was not saved: {reason.strerror or reason}", good=False)
-            else:
-                self._panel.say(f"{len(values)} values saved in {path.name}.")
+        self._expect(self._values.read(names), read)
 
-        self._expect(self._values.read(names), done)
+    def _save_arrays(self, path: Path, values: dict[str, Value], left: list[str]) -> None:
+        """One array after the other, then the file."""
+        from device.values import Elements
+
+        if not left:
+            self._write(path, values)
+            return
+        name, rest = left[0], left[1:]
+        self._panel.say(f"Reading {name} for {path.name}…")
+
+        def read(elements: Elements) -> None:
+            found = {f"{name}[{place}]": value for place, value in enumerate(elements.values)}
+            self._save_arrays(path, {**values, **found}, rest)
+
+        self._expect(self._values.elements(Elements(name)), read)
+
+    def _write(self, path: Path, values: Mapping[str, Value]) -> None:
+        from codegen.difference_values import number_text
+
+        try:
+            save_text(path, recipe_text({name: number_text(each) for name, each in values.items()}))
+        except OSError as reason:
+            self._panel.say(f"{path.name} was not saved: {reason.strerror or reason}", good=False)
+        else:
+            self._panel.say(f"{len(values)} values saved in {path.name}.")
 
     def _ask_send(self) -> None:
         recipe = self._panel.recipe
@@ -149,23 +191,33 @@ class Variables(QObject):
         self._ask("Send the recipe?", words, [("Send", lambda: self._send(list(recipe.items())))], "warning")
 
     def _send(self, left: list[tuple[str, str]]) -> None:
+        """As many values a line as fit; the first line that is refused ends it."""
+        model = self._connection.controller.model
+        commands, problem = [], ""
+        for name, text in left:
+            command, wrong = assignment(name, text)
+            commands.append(command)
+            problem = problem or wrong
+        if problem:
+            self._panel.say(f"{problem} Nothing of the recipe was sent.", good=False)
+        else:
+            self._send_lines(joined(commands, (model.columns if model is not None else 40) - FRAME_COLUMNS - 2))
+
+    def _send_lines(self, left: list[str]) -> None:
         if not left:
             self._panel.say("The recipe is in the controller.")
             self.read()
             return
-        (name, text), rest = left[0], left[1:]
-        command, problem = assignment(name, text)
+        line, rest = left[0], left[1:]
+        self._panel.say(f"Sending: {len(left)} lines left…")
 
         def done(reply: Any) -> None:
             if reply.accepted:
-                self._send(rest)
+                self._send_lines(rest)
             else:
-                self._panel.say(f"{command}: {reply.reason} The rest of the recipe was not sent.", good=False)
+                self._panel.say(f"{line}: {reply.reason} The rest of the recipe was not sent.", good=False)
 
-        if problem:
-            self._panel.say(f"{problem} The rest of the recipe was not sent.", good=False)
-        else:
-            self._expect(self._connection.controller.ask(command), done)
+        self._expect(self._connection.controller.ask(line), done)
 
     # ---- inside
 
@@ -178,6 +230,17 @@ class Variables(QObject):
                 call(future.result())
 
         self._tick.when_done(future, done)
+
+
+def joined(commands: Sequence[str], room: int) -> list[str]:
+    """Commands in as few lines as fit into so many characters."""
+    lines: list[str] = []
+    for command in commands:
+        if lines and len(lines[-1]) + 1 + len(command) <= room:
+            lines[-1] += f";{command}"
+        else:
+            lines.append(command)
+    return lines
 
 
 def recipe_text(values: Mapping[str, str]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import Future
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from codegen.models import Model
@@ -15,6 +16,19 @@ from device.tasks import LinkError, NotAllowed, Priority, Steps
 
 if TYPE_CHECKING:
     from device.api import Controller
+
+
+AT_ONCE = 32  # elements of an array between two looks whether they are still wanted
+
+
+@dataclass
+class Elements:
+    """An array while it is read: what has come so far, of how many; `wanted` is set to False to end it."""
+
+    name: str
+    values: list[Value] = field(default_factory=list)
+    total: int = 0
+    wanted: bool = True
 
 
 def letters_of(value: Value) -> str:
@@ -37,9 +51,9 @@ class Values:
         """The values of these variables or elements (`V1`, `A[3]`); what the controller does not know is left out."""
         return self._c.run(self._read(tuple(names)), Priority.POLL, "user")
 
-    def elements(self, name: str) -> Future[tuple[Value, ...]]:
-        """All elements of one array."""
-        return self._c.run(self._elements(name), Priority.POLL, "user")
+    def elements(self, elements: Elements) -> Future[Elements]:
+        """All elements of one array; they can be looked at while they come."""
+        return self._c.run(self._elements(elements), Priority.POLL, "user")
 
     def _allowed(self) -> Model:
         """The controller's model, when something may be read now."""
@@ -61,13 +75,20 @@ class Values:
         values = yield from exact(self._c.nonces, names, self._allowed().columns)
         return {name: value for name, value in zip(names, values, strict=True) if value is not None}
 
-    def _elements(self, name: str) -> Steps[tuple[Value, ...]]:
+    def _elements(self, elements: Elements) -> Steps[Elements]:
         model = self._allowed()
-        count = yield from self._count(name, model)
-        if not count:
-            raise LinkError(f"The controller has no array {name}.")
-        values = yield from exact(self._c.nonces, [f"{name}[{place}]" for place in range(count)], model.columns)
-        return tuple(value for value in values if value is not None)
+        total = yield from self._count(elements.name, model)
+        if not total:
+            raise LinkError(f"The controller has no array {elements.name}.")
+        elements.total = total
+        for first in range(0, total, AT_ONCE):
+            if not elements.wanted:
+                raise NotAllowed(f"{elements.name} was not read to its end.")
+            self._allowed()
+            names = [f"{elements.name}[{place}]" for place in range(first, min(first + AT_ONCE, total))]
+            values = yield from exact(self._c.nonces, names, model.columns)
+            elements.values += [value for value in values if value is not None]
+        return elements
 
     def _count(self, name: str, model: Model) -> Steps[int]:
         """How many elements there are: an element that does not exist is refused; halving finds the first of those."""

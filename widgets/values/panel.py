@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -33,7 +34,7 @@ OFFLINE = "Nothing is connected. Connect a controller or start the simulator to 
 WATCHED = "This is Watch: switch to Control to change a value."
 NONE_THERE = "The controller knows no variable and no array yet."
 COLUMNS = ("Name", "Value", "As text", "In the recipe")
-ARRAY_COLUMNS = ("Element", "Value")
+ARRAY_COLUMNS = ("Element", "Value", "In the recipe")
 NAME, VALUE, LETTERS, RECIPE = range(4)
 REPEAT_TICKS = 30  # about a second
 
@@ -58,6 +59,7 @@ class ValuesPanel(Panel):
         self.recipe: Mapping[str, str] = {}
         self.plot: Plot | None = None
         self._shown: dict[str, str] = {}
+        self._array, self._numbers = "", list[str]()  # the array that is shown, as far as it was read
         self._ticks = 0
         self._filling = False
         self.read, self.keep = QPushButton("Read"), QCheckBox("Keep reading")
@@ -127,20 +129,39 @@ class ValuesPanel(Panel):
         self._filling = False
         self._show_recipe()
 
-    def show_elements(self, name: str, values: Sequence[str]) -> None:
-        """All elements of one array, as a list and as a picture."""
+    def show_elements(self, name: str, values: Sequence[str], first: int = 0, total: int = 0) -> None:
+        """Elements of one array from `first` on, as a list and as a picture; `total`: so many it has."""
         self._filling = True
-        self.elements.setRowCount(len(values))
-        for place, text in enumerate(values):
+        if not first:
+            self._numbers = []
+        self._numbers += values
+        self.elements.setRowCount(len(self._numbers))
+        for place, text in enumerate(values, start=first):
             number = QTableWidgetItem(f"{name}[{place}]")
             number.setFlags(number.flags() & ~Qt.ItemFlag.ItemIsEditable)
             self.elements.setItem(place, 0, number)
             self.elements.setItem(place, 1, QTableWidgetItem(text))
         self._filling = False
-        set_text(self.chosen, f"{name}, {len(values)} elements" if name else "")
+        self._array = name
+        set_text(self.chosen, f"{name}, {total or len(values)} elements" if name else "")
         self._right.setVisible(bool(name))
+        self._show_recipe(first)
         if name:
-            self._draw(name, values)
+            self._draw(name, self._numbers)
+
+    def show_element(self, name: str, text: str) -> None:
+        """One element as it was read again."""
+        array, bracket, place = name.partition("[")
+        row = int(place.rstrip("]")) if bracket and place.rstrip("]").isdecimal() else -1
+        if array == self._array and 0 <= row < len(self._numbers):
+            self._numbers[row] = text
+            self._filling = True
+            item = self.elements.item(row, 1)
+            if item is not None:
+                item.setText(text)
+            self._filling = False
+            self._show_recipe(row)
+            self._draw(array, self._numbers)
 
     def show_recipe(self, recipe: Mapping[str, str]) -> None:
         """What a recipe holds, beside what the controller holds."""
@@ -148,8 +169,10 @@ class ValuesPanel(Panel):
         self._filling = True
         there = {self._name(row) for row in range(self.table.rowCount())}
         for name in recipe:
-            if name not in there and "[" not in name:
-                self._add(name)
+            shown = f"{name.partition('[')[0]}[ ]" if "[" in name else name
+            if shown not in there:
+                there.add(shown)
+                self._add(shown)
         self._filling = False
         self._show_recipe()
         self._show_usable()
@@ -196,14 +219,32 @@ class ValuesPanel(Panel):
                 item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
             self.table.setItem(row, column, item)
 
-    def _show_recipe(self) -> None:
+    def _show_recipe(self, first: int = 0) -> None:
+        """What the recipe has for each name, and for the elements from `first` on; ≠ where it differs."""
         self._filling = True
         self.table.setColumnHidden(RECIPE, not self.recipe)
+        sizes = Counter(name.partition("[")[0] for name in self.recipe if "[" in name)
         for row in range(self.table.rowCount()):
             name = self._name(row)
             wanted = self.recipe.get(name, "")
-            self._put(row, RECIPE, f"≠ {wanted}" if wanted and wanted != self._text(row, VALUE) else wanted)
+            words = f"≠ {wanted}" if wanted and wanted != self._text(row, VALUE) else wanted
+            array = name.removesuffix("[ ]")
+            self._put(row, RECIPE, self._array_words(array, sizes[array]) if array != name and sizes[array] else words)
+        self.elements.setColumnHidden(2, not sizes[self._array])
+        for row in range(first, self.elements.rowCount() if sizes[self._array] else 0):
+            wanted = self.recipe.get(f"{self._array}[{row}]", "")
+            item = QTableWidgetItem(f"≠ {wanted}" if wanted and wanted != self._numbers[row] else wanted)
+            item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
+            self.elements.setItem(row, 2, item)
         self._filling = False
+
+    def _array_words(self, name: str, count: int) -> str:
+        """How many elements, and how many differ where they are known."""
+        if name != self._array:
+            return f"{count} elements"
+        wanted = [self.recipe.get(f"{name}[{row}]", "") for row in range(len(self._numbers))]
+        wrong = sum(bool(text) and text != there for text, there in zip(wanted, self._numbers, strict=True))
+        return f"≠ {wrong} of {count} elements" if wrong else f"{count} elements"
 
     def _edited(self, row: int, column: int) -> None:
         if self._filling or column != VALUE:

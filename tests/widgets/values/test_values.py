@@ -119,6 +119,65 @@ def test_a_recipe_is_saved_compared_and_sent(stage: Stage, tmp_path: Path) -> No
     stage.until(lambda: "LEN 12.5 12.5" in panel.words())
 
 
+def test_an_element_is_changed_and_read_alone(stage: Stage) -> None:
+    panel = connected(stage)
+    panel.table.setCurrentCell(row_of(panel, "POS[ ]"), 0)
+    stage.until(lambda: panel.elements.rowCount() == 5)
+    panel.elements.setFocus()
+    panel.elements.setCurrentCell(3, 1)
+    QTest.keyClick(panel.elements, Qt.Key.Key_F2)
+    editor = panel.elements.findChild(QLineEdit)
+    assert editor is not None
+    editor.selectAll()
+    QTest.keyClicks(editor, "-7.5")
+    before = len(stage.rig.lines)
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    stage.go(30)
+    assert list(stage.rig.simulation.state()["arrays"]["POS"]) == [1, 4, 9, -7.5, -2.25]
+    assert panel.elements.item(3, 1).text() == "-7.5"
+    reads = [line for line in stage.rig.lines[before:] if "POS[" in line and "$8.4" in line]
+    assert len(reads) == 1 and "POS[0]" not in reads[0]  # a long array would take minutes again
+
+
+def test_a_long_array_tells_how_far_it_is_and_another_one_ends_it(stage: Stage) -> None:
+    panel = connected(stage)
+    stage.rig.type("DM LONG[500]", "LONG[499]=3")
+    panel.show_names(["LEN"], ["LONG", "POS"])
+    panel.table.setCurrentCell(row_of(panel, "LONG[ ]"), 0)
+    stage.until(lambda: panel.elements.rowCount() > 40)
+    assert panel.words_.text() == f"Reading LONG: {panel.elements.rowCount()} of 500…"
+    assert panel.chosen.text() == "LONG, 500 elements"
+    panel.table.setCurrentCell(row_of(panel, "POS[ ]"), 0)
+    stage.until(lambda: panel.chosen.text() == "POS, 5 elements", 5.0)
+    stage.until(lambda: not panel.words_.text(), 5.0)
+    assert panel.elements.rowCount() == 5
+    panel.table.setCurrentCell(row_of(panel, "LONG[ ]"), 0)
+    stage.until(lambda: panel.elements.rowCount() == 500, 60.0)
+    stage.until(lambda: not panel.words_.text(), 5.0)
+    assert [panel.elements.item(row, 1).text() for row in (0, 498, 499)] == ["0", "0", "3"]
+
+
+def test_arrays_are_part_of_a_recipe(stage: Stage, tmp_path: Path) -> None:
+    panel, path = connected(stage), tmp_path / "long.tlr"
+    stage.studio.at_machine.variables.save_recipe(path)
+    stage.until(path.exists)
+    recipe = read_recipe(path.read_text(encoding="utf-8"))
+    assert [recipe[f"POS[{place}]"] for place in range(5)] == ["1", "4", "9", "16", "-2.25"]
+    stage.rig.type("POS[1]=40", "POS[4]=0")
+    panel.table.setCurrentCell(row_of(panel, "POS[ ]"), 0)
+    stage.until(lambda: panel.elements.rowCount() == 5)
+    stage.studio.at_machine.variables.open_recipe(path)
+    assert "POS[ ] ≠ 2 of 5 elements" in panel.words()
+    assert [panel.elements.item(row, 2).text() for row in range(5)] == ["1", "≠ 4", "9", "16", "≠ -2.25"]
+    QTest.mouseClick(panel.send, Qt.MouseButton.LeftButton)
+    question = stage.studio.desk.question
+    assert question is not None
+    QTest.mouseClick(question.buttons["Send"], Qt.MouseButton.LeftButton)
+    stage.until(lambda: list(stage.rig.simulation.state()["arrays"]["POS"]) == [1, 4, 9, 16, -2.25])
+    stage.until(lambda: "LEN 12.5" in panel.words())
+    assert all(len(line) <= 80 for line in stage.rig.lines)  # ssc-tol-o-motion.txt: 80 characters a line
+
+
 @given(st.integers(-(2**47), 2**47 - 1))
 def test_a_number_is_shown_exactly(value: int) -> None:
     assert Fraction(number_text(value)) == Fraction(value, ONE)
