@@ -28,8 +28,10 @@ from device.wire import Kind
 if TYPE_CHECKING:
     from codegen.models import Model
     from device.api import Controller
+    from device.backup import Value
 
 T = TypeVar("T")
+FREE = {"forward": 0b1000, "reverse": 0b0100}  # of _TS: set while it is not active, whatever CN
 LIMITED = (2, 3)  # stop codes: FL or the forward switch, BL or the reverse one
 ERROR_SHARE = 1.5  # of a step: more than that and the loop is not following any more
 
@@ -108,12 +110,21 @@ def _begin(c: Controller, guard: Guard, folder: Path, now: datetime) -> Steps[Fo
 def _free(c: Controller, model: Model, axis: str) -> Steps[None]:
     """Nothing runs, moves or follows; it is a servo with its motor on."""
     yield from still(c, model, "Not started")
-    told = yield from exact(c.nonces, [f"_MO{axis}", f"_MT{axis}"], model.columns)
-    off, motor = (0 if value is None else value for value in told)
+    told = yield from exact(c.nonces, [f"_MO{axis}", f"_MT{axis}", f"_TS{axis}"], model.columns)
+    off, motor = (0 if value is None else value for value in told[:2])
     if abs(motor) != ONE:
         raise NotAllowed(f"Not started: axis {axis} drives a stepper (MT); there is no loop to tune.")
     if off:
         raise NotAllowed(f"Not started: the motor of axis {axis} is off. Switch it on (SH) first.")
+    if side := _tripped(told[2]):
+        raise NotAllowed(f"Not started: axis {axis} stands in its {side} limit switch. Move it away first.")
+
+
+def _tripped(switches: Value | None) -> str:
+    """Which limit switch is active, from _TS: unlike _LF and _LR it knows the polarity (CN). Or nothing."""
+    if switches is None:
+        return ""
+    return next((side for side, bit in FREE.items() if not switches // ONE & bit), "")
 
 
 def _inside(guard: Guard, former: Former) -> None:
@@ -143,11 +154,11 @@ def _narrow(c: Controller, guard: Guard, former: Former) -> Steps[None]:
     yield from assign(c, former.axis, values)
 
 
-def watch(c: Controller, axis: str) -> Steps[bool]:
+def watch(c: Controller, axis: str, *, switches: bool = True) -> Steps[bool]:
     """Whether the axis is still commanded to move; Fault where the motor went off or a limit ended the move."""
     assert c.model is not None  # `ready` has looked
-    told = yield from exact(c.nonces, [f"_MO{axis}", f"_BG{axis}", f"_SC{axis}"], c.model.columns)
-    off, moving, code = (0 if value is None else value for value in told)
+    told = yield from exact(c.nonces, [f"_MO{axis}", f"_BG{axis}", f"_SC{axis}", f"_TS{axis}"], c.model.columns)
+    off, moving, code = (0 if value is None else value for value in told[:3])
     if off:
         raise Fault(
             f"The motor of axis {axis} went off: its following error passed the limit of this test. The former gains "
@@ -156,6 +167,8 @@ def watch(c: Controller, axis: str) -> Steps[bool]:
         )
     if not moving and code // ONE in LIMITED:
         raise Fault(f"Axis {axis} met a limit and stopped. Move it away from there, or state less travel.")
+    if switches and (side := _tripped(told[3])):
+        raise Fault(f"Axis {axis} met its {side} limit switch. Move it away from there, or state less travel.")
     return bool(moving)
 
 
@@ -179,5 +192,5 @@ def _go_back(c: Controller, former: Former) -> Steps[None]:
         answer = yield from proved(c.nonces, line, LINE_S, REFUSAL_S)
         if answer.kind is not Kind.ACCEPTED:
             return  # it stays where it is; that harms nothing
-    while (yield from watch(c, axis)):
+    while (yield from watch(c, axis, switches=False)):  # this way leads off a switch
         yield Wait(LOOK_S)

@@ -117,6 +117,21 @@ def test_nothing_is_changed_where_it_may_not_begin(tmp_path: Path, commands: tup
     assert held(rig)["KP"] == 6.125 and held(rig)["OE"] == 0 and not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("side", ["forward", "reverse"])
+@pytest.mark.parametrize(("polarity", "tripped"), [(-1, 0), (1, 1)])
+def test_an_axis_in_a_limit_switch_is_not_excited(tmp_path: Path, side: str, polarity: int, tripped: int) -> None:
+    """CN -1: low inhibits motion (dmc-1412-1414.txt l.4111); CN turns the polarity of both."""
+    rig = ready()
+    rig.type("MO", f"CN {polarity}", "SH")
+    for each in ("forward", "reverse"):
+        rig.simulation.stimulus(f"{each[0]}ls_x", tripped if each == side else 1 - tripped)
+    with pytest.raises(NotAllowed, match=f"stands in its {side} limit switch. Move it away first."):
+        rig.result(begin(rig, tmp_path, lambda former: asked(rig, "KPX=500")))
+    assert held(rig)["KP"] == 6.125 and held(rig)["OE"] == 0 and not list(tmp_path.iterdir())
+    rig.simulation.stimulus(f"{side[0]}ls_x", 1 - tripped)
+    rig.result(begin(rig, tmp_path, lambda former: asked(rig, "KPX=500")))
+
+
 def test_not_in_watch_and_not_beside_a_program(tmp_path: Path) -> None:
     rig = ready("machine", program="#A;WT 100;JP #A")
     rig.type("XQ #A")

@@ -65,6 +65,16 @@ def test_gains_that_run_away_end_with_the_motor_off_and_the_former_gains(tmp_pat
     assert held(rig) == FACTORY and not rig.simulation.state()["axes"]["X"]["motor_on"]
 
 
+def test_a_switch_that_is_met_ends_the_run(tmp_path: Path) -> None:
+    rig = ready()
+    job = run_step(rig.controller, Wish("X", 300, GOOD), tmp_path, WHEN)
+    rig.until(lambda: abs(rig.simulation.state()["axes"]["X"]["actual"]) > 100)
+    rig.simulation.stimulus("fls_x", 0)
+    with pytest.raises(Fault, match="Axis X met its forward limit switch"):
+        done(rig, job)
+    assert held(rig) == FACTORY and not rig.moving and not list(tmp_path.iterdir())
+
+
 def test_a_step_that_no_error_limit_can_hold_is_refused(tmp_path: Path) -> None:
     rig = ready()
     for step in (0, 3, 30_000):
