@@ -73,7 +73,10 @@ class Offer(QObject):
         if controller.kind is Kind.OFFLINE or controller.state is not State.READY:
             self._looked_at = None
             return
-        if controller is self._looked_at or self._running() or controller.model is None or controller.resting():
+        if self._running():
+            self._looked_at = None  # what it could not put back (Watch, a lost line) is asked about when it has ended
+            return
+        if controller is self._looked_at or controller.model is None or controller.resting():
             return
         self._looked_at = controller
         self.offer(controller)

@@ -244,6 +244,7 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
     assert panel.bode_plot is not None and "Crossover" in panel.model.margins.text()
     first = part.proposal
     view = panel.bode_plot.gain.viewport()
+    stage.go()
     drag(
         view, at(panel.bode_plot.gain, panel.bode_plot.crossover.value(), 30.0), at(panel.bode_plot.gain, TWENTY, 30.0)
     )
@@ -284,6 +285,7 @@ def _margin_and_keys(stage: Stage, panel: TunerPanel) -> None:
     part, plot = stage.studio.at_machine.tuning.tuner.model, panel.bode_plot
     assert plot is not None
     before, gains = part.proposal, panel.manual.gains.texts
+    stage.go()  # the diagram has found its range
     aside = plot.phase.getViewBox().viewRange()[0][0] + 0.5
     drag(plot.phase.viewport(), at(plot.phase, aside, plot.margin.value()), at(plot.phase, aside, 60.0 - 180.0))
     worked(stage, lambda: part.proposal is not before)
@@ -308,6 +310,7 @@ def _beyond_reach(stage: Stage, panel: TunerPanel) -> None:
     part, plot = stage.studio.at_machine.tuning.tuner.model, panel.bode_plot
     assert plot is not None
     before = part.proposal
+    stage.go()
     (_, right), _ = plot.gain.getViewBox().viewRange()
     drag(plot.gain.viewport(), at(plot.gain, plot.crossover.value(), 30.0), at(plot.gain, right - 0.02, 30.0))
     worked(stage, lambda: part.proposal is not before)
@@ -410,6 +413,24 @@ def test_what_a_crash_left_is_offered_first(stage: Stage) -> None:
             assert held(rig) == GAINS and left_behind(folder) == ()
         stage.studio.connection.go_offline()
         stage.go()
+
+
+def test_watch_in_the_middle_of_a_step_offers_the_former_values_at_once(stage: Stage) -> None:
+    """Nothing may be sent any more then: the axis is left at rest, guarded, with the gains of the step."""
+    panel = tuner(stage, "machine")
+    click(panel.box.free)
+    stage.go()
+    click(panel.box.begin)
+    stage.until(lambda: abs(stage.rig.simulation.state()["axes"]["X"]["actual"]) > 50)
+    stage.controller.release_control()
+    stage.until(lambda: asked(stage) is not None)
+    question = asked(stage)
+    assert question is not None and not panel.running
+    click(question.buttons["Take Control and put them back"])
+    folder = stage.studio.at_machine.tuning.tuner.folder
+    stage.until(lambda: not left_behind(folder))
+    registers = stage.rig.simulation.unit.state.registers
+    assert held(stage.rig) == GAINS and not stage.rig.moving and registers["ER"][0] == 16384 * ONE  # the factory's
 
 
 def asked(stage: Stage) -> Question | None:
