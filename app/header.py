@@ -12,6 +12,7 @@ from widgets.parts.stop_button import StopButton
 
 UNDER, ALONE = Qt.ToolButtonStyle.ToolButtonTextUnderIcon, Qt.ToolButtonStyle.ToolButtonIconOnly
 ASIDE = 40  # px: margin and spaces of the strip
+CLOSER = 9  # px that a button can spare
 
 
 class Header(QWidget):
@@ -48,9 +49,14 @@ class Header(QWidget):
         if not self.isVisible():
             return
         if not self._text_width:
-            self._text_width = self.toolbar.sizeHint().width()
+            self._text_width = width_of(self.toolbar)
         room = self.width() - self.switch.sizeHint().width() - self.stop.sizeHint().width() - ASIDE
         show_texts(self.toolbar, UNDER if room >= self._text_width else ALONE)
+
+
+def width_of(bar: QToolBar) -> int:
+    """px at which every word is still whole: a button may stand a little closer than it likes."""
+    return bar.sizeHint().width() - CLOSER * sum(bool(each.text()) for each in bar.actions())
 
 
 def show_texts(bar: QToolBar, style: Qt.ToolButtonStyle) -> None:

@@ -6,7 +6,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QToolBar, QWidget
 
-from app.header import ALONE, UNDER, show_texts, tool_bar
+from app.header import ALONE, UNDER, show_texts, tool_bar, width_of
 from app.held import Held, Holding
 from widgets.panel import show_role
 
@@ -98,7 +98,7 @@ class RunBar(QWidget):
 
     def _width_with(self, style: Qt.ToolButtonStyle) -> int:
         show_texts(self.toolbar, style)
-        return self.toolbar.sizeHint().width()
+        return width_of(self.toolbar)
 
     def minimumSizeHint(self) -> QSize:
         """Room for the pictures and the sign of the badge."""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from device.api import Controller, Notice, Reply, Row, Traffic
 
 MOST_LINES = 5000
-LEAST = 240  # px of the line that is typed into
+LEAST = 150  # px of the line that is typed into
 # what a line is: (colour token, sign before it)
 STYLES = {
     "typed": ("accent", "› "),
@@ -197,7 +197,7 @@ class TerminalPanel(Panel):
         self.log.setPlaceholderText("Replies and program messages appear here.")
         self.line.setFont(look().code_font())
         self.line.setAccessibleName("Command")
-        self.line.setPlaceholderText("Command, such as TP or MG _TPX")
+        self.line.setPlaceholderText("For example TP")
         self.send.setProperty("role", "primary")
         self.why.setWordWrap(True)
         self.log.setMinimumHeight(48)
