@@ -75,6 +75,7 @@ class Commissioning(QObject):
         self.switches: Switches | None = None
         self.moved: Moved | None = None
         self.measured: Fraction | None = None  # counts in a unit
+        self.still = 0  # counts: with so large an error limit the axis was seen to stand still
         self._begun = 0.0
         self._to_keep = 0  # ticks until what was typed is written
         self._looking = False
@@ -233,7 +234,7 @@ class Commissioning(QObject):
     def _forget(self) -> None:
         """What was seen belongs to one visit of one step."""
         self.turned = self.switches = self.moved = self.measured = None
-        self.note = ""
+        self.note, self.still = "", 0
         self._begun = 0.0
 
     def _watch(self, keys: tuple[str, ...]) -> None:
@@ -350,7 +351,7 @@ class Commissioning(QObject):
             ("Printed", f"{self.now():%Y-%m-%d %H:%M}"),
         )
         lines = [
-            Line(step.title, each.verdict.value, each.sentence, each.facts, each.advice, each.when, step.source)
+            Line(step.title, each.verdict.value, each.sentence, each.facts, each.advice, each.when, step.manual)
             for step in self.steps
             for each in (record.of(step.key),)
         ]

@@ -178,11 +178,14 @@ class Orders(Typed):
         def done(moved: Moved) -> None:
             d.moved = moved
             finding = judge.judge_polarity(moved, d.record.sine)
+            d.still = moved.error if moved.furthest <= 1 else 0
+            d.record = dc.replace(d.record, error=moved.error if finding.verdict is Verdict.PASSED else 0)
             if finding.verdict is Verdict.PASSED:
                 finding = dc.replace(finding, verdict=Verdict.OPEN, sentence=f"{finding.sentence} {WENT}")
             d.found(finding)
 
-        self.move(Trial(d.record.axis, counts, error, self.torque()), done)
+        silent = max(moves.SILENT, 2 * d.still)  # the person has seen that it stood still
+        self.move(Trial(d.record.axis, counts, error, self.torque(), silent=silent), done)
 
     def _direction(self, forward: bool) -> None:
         d = self.desk
@@ -203,7 +206,8 @@ class Orders(Typed):
                 finding = dc.replace(finding, sentence="It has moved. Type what you measured and press “Judge”.")
             d.found(finding)
 
-        self.move(Trial(d.record.axis, counts, error, self.torque(), d.axis.is_stepper), done)
+        known = max(moves.SILENT, d.record.error)
+        self.move(Trial(d.record.axis, counts, error, self.torque(), d.axis.is_stepper, silent=known), done)
 
     def _measured(self) -> None:
         d = self.desk

@@ -64,7 +64,7 @@ def page_of(step: Step, steps: tuple[Step, ...], now: Now) -> Page:
     if blocked:
         acts = tuple(Act(act.name, act.label, blocked, act.primary, act.moves) for act in acts)
     return Page(
-        step.key, step.title, step.todo, step.source, step.judged, readings, fields, ticks, acts,
+        step.key, step.title, step.todo, step.manual, step.judged, readings, fields, ticks, acts,
         finding.verdict.value, finding.sentence, finding.advice, finding.facts, blocked, now.busy,
     )  # fmt: skip
 
@@ -167,7 +167,7 @@ def _going(now: Now) -> tuple[Reading, ...]:
     return (
         Reading("Motor", now.motor, "warning" if now.motor == "on" else ""),
         Reading("Position, counts", now.counts("position")),
-        Reading("Error, counts", now.counts("error")),
+        Reading("Error, counts", "–" if now.motor == "off" else now.counts("error")),
         Reading("Motor command, V", _volts(now)),
     )
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from app.commissioning_typed import NotTyped, Typed
 from codegen.numbers import parse_number, plain, shown
 from device.commissioning import judge_sine, sine
+from device.commissioning.moves import SILENT
 from device.download import Job
 
 if TYPE_CHECKING:
@@ -78,5 +79,6 @@ class SineOrders(Typed):
             d.found(judge_sine.judge_halls(*result))
 
         job: Job[Moved] = Job()
-        steps = sine.by_halls(d.controller, d.record.axis, cycle, self.torque(), d.folder, d.now(), job)
+        silent = max(SILENT, d.record.error)
+        steps = sine.by_halls(d.controller, d.record.axis, cycle, self.torque(), d.folder, d.now(), job, silent)
         d.run(f"Axis {d.record.axis} moves", steps, done, job)

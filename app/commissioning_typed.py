@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from codegen.numbers import number_problem, parse_number
+from codegen.numbers import number_problem, parse_number, shown
+from codegen.setup import Unit
 from codegen.twoletter.fixed import ONE
 from device.commissioning import judge, moves, settings
 from device.commissioning.moves import Trial
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from app.commissioning import Commissioning
     from device.commissioning.judge import Moved
 
-UNITS = {"ER": "counts", "TL": "V", "FL": "counts", "BL": "counts", "OE": "", "MT": "", "KS": ""}
+UNITS = {"ER": "counts", "TL": "V", "OE": "", "MT": "", "KS": ""}
 
 
 class NotTyped(Exception):
@@ -48,8 +49,9 @@ class Typed:
 
         def done(result: tuple[Mapping[str, int], Mapping[str, int]]) -> None:
             former, there = result
-            finding = judge.judge_set(*({name: _told(name, each[name]) for name in each} for each in (wanted, there)))
-            was = tuple((f"{name} before", _told(name, former[name])) for name in wanted)
+            asked, held = ({name: self._told(name, each[name]) for name in each} for each in (wanted, there))
+            finding = judge.judge_set(asked, held)
+            was = tuple((f"{name} before", self._told(name, former[name])) for name in wanted)
             d.found(dc.replace(finding, facts=(*finding.facts, *was)))
 
         steps = settings.set_values(d.controller, d.record.axis, wanted, d.folder, d.now())
@@ -67,10 +69,13 @@ class Typed:
     def torque(self) -> Fraction:
         return parse_number(self.desk.record.text("guards", "torque", "1")) or Fraction(1)
 
-
-def _told(name: str, value: int) -> str:
-    """A register in words: `1 V`, `2000 counts`, `off` for a limit that is none."""
-    if name in ("FL", "BL") and abs(value // ONE) >= 2**31 - 1:
-        return "off"
-    number = f"{value / ONE:.3f}".rstrip("0").rstrip(".")
-    return f"{number} {UNITS[name]}".strip()
+    def _told(self, name: str, value: int) -> str:
+        """A register in words: `1 V`, `2000 counts`, `200 mm (200000 counts)`, `off` for a limit that is none."""
+        if name in ("FL", "BL"):
+            if abs(value // ONE) >= 2**31 - 1:
+                return "off"
+            axis, counts = self.desk.axis, value // ONE
+            place = f"{shown(Fraction(counts) / axis.scale)} {axis.symbol}"
+            return f"{counts} counts" if axis.unit is Unit.COUNT else f"{place} ({counts} counts)"
+        number = f"{value / ONE:.3f}".rstrip("0").rstrip(".")
+        return f"{number} {UNITS[name]}".strip()

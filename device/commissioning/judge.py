@@ -24,7 +24,7 @@ PASSED, FAILED, OPEN = Verdict.PASSED, Verdict.FAILED, Verdict.OPEN
 NO_ENABLE = (
     "Does an enable signal (AEN, AMPEN) go from the controller to the drive?",
     "The drive may want it the other way round: on the ICM-1460 the 7407 is exchanged for a 7406 "
-    "(dmc-1412-1414.txt l.585); elsewhere ask for the -LAEN option.",
+    "(DMC-1412/1414 manual, chapter 2); elsewhere ask for the -LAEN option.",
 )
 ENCODER_CAUSES = (
     "Check the wires of the encoder: channels A and B, supply, and for a single-ended encoder nothing at A- and B-.",
@@ -166,9 +166,9 @@ def _scale(found: Fraction, axis: Axis, allowed: Fraction, facts: tuple[tuple[st
         words = f"{good}: {shown(found)} counts in 1 {axis.symbol}. The setup has no scale yet; take this one."
         return Finding(PASSED, words, (), facts)
     ratio = found / axis.scale
-    facts = (*facts, ("In the setup", f"{shown(axis.scale)} counts in 1 {axis.symbol}"))
     if abs(ratio - 1) <= allowed:
-        return Finding(PASSED, f"{good}, {shown(found)} counts in 1 {axis.symbol}, as the setup has it.", (), facts)
+        words = f"{good}: {shown(found)} counts in 1 {axis.symbol} were measured, {shown(axis.scale)} are in the setup."
+        return Finding(PASSED, words, (), facts)
     words = (
         f"The scale is wrong: {shown(found)} counts in 1 {axis.symbol} were measured, {shown(ratio, 3)} times the "
         f"{shown(axis.scale)} of the setup."
@@ -178,7 +178,7 @@ def _scale(found: Fraction, axis: Axis, allowed: Fraction, facts: tuple[tuple[st
 
 def _scale_causes(ratio: Fraction) -> tuple[str, ...]:
     likely = {
-        4: "The controller counts four edges for each line of the encoder: 4 times its lines (dmc-1412-1414.txt, CE).",
+        4: "The controller counts four edges for each line of the encoder: 4 times its lines.",
         25.4: "One inch is 25.4 mm: is the unit right?",
         2: "A factor of 2: a screw with two starts, or a pulley of half the size?",
     }
@@ -236,7 +236,7 @@ def _stuck(rest: Mapping[str, int], active: Mapping[str, int]) -> tuple[str, ...
     return (
         "Check the switch with a meter, and its wire up to the terminal of the controller.",
         "Opto-isolated inputs need their common: is the limit switch common (LSCOM) connected?",
-        "An input that nothing is connected to reads 1 (SSC manual l.1353).",
+        "An input that nothing is connected to reads 1.",
     )
 
 
@@ -284,8 +284,9 @@ def judge_polarity(moved: Moved, sine: bool = False) -> Finding:
         return Finding(FAILED, words, (*ENCODER_CAUSES, *WEAK[3:4]), facts)
     if moved.furthest <= STIRRED:
         words = (
-            f"The axis did not move, although it was driven{_stopped(moved)}. Did you see it turn? Then the encoder "
-            "does not tell. If it stood still, no force arrived."
+            f"The axis did not move, although it was driven up to an error of {moved.error} counts. Did you see it "
+            "turn? Then its encoder tells nothing: do not go on. If it stood still, try again: each time it gets more "
+            "force, up to the error limit on this page."
         )
         return Finding(FAILED, words, (*WEAK, *ENCODER_CAUSES[:1]), facts)
     commanded = (moved.commanded - moved.start) * (1 if moved.asked >= 0 else -1)
@@ -318,7 +319,7 @@ def judge_scale(moved: Moved, asked: str, typed: str, axis: Axis) -> Finding:
     measured = parse_number(typed)
     if measured is None or not measured:
         return Finding(OPEN, f"Measured: {number_problem(typed) or 'it can not be 0'}.", (), facts)
-    facts = (*facts, ("Commanded", f"{asked} {axis.symbol}"), ("Measured", f"{typed.strip()} {axis.symbol}"))
+    facts = (*facts, ("Distance", f"{asked} {axis.symbol}"), ("Measured", f"{typed.strip()} {axis.symbol}"))
     found = Fraction(moved.end - moved.start) / measured
     if found < 0:
         words = "The axis went the other way than it was commanded to, by the sign of what you measured."

@@ -40,6 +40,7 @@ LARGEST_TRIAL = 600  # counts
 LARGEST_MOVE = 1000  # counts: what is left to MOST is for an encoder that dies on the way
 LARGEST_ERROR = 400  # counts: an axis with much friction needs more than the usual
 FEELERS = (10, 10, 10)  # error limits that are tried first, counts; a dead channel may look still once
+SILENT = 20  # counts: no more is tried by itself where the reading says nothing; what the axis does, only eyes can tell
 GROWTH = Fraction(13, 10)  # of the error limit from try to try
 RAN = 40  # counts backwards that are no sagging of a load that hangs
 SPEED, RAMP = 1000, 5120  # counts/s, counts/s²: little error is needed to follow, so the limit can be small
@@ -60,6 +61,7 @@ class Trial:
     torque: Fraction = Fraction(1)
     stepper: bool = False  # it may have no encoder: where it is, tell the pulses that were sent (TD)
     before: str = ""  # a command between SH and the move
+    silent: int = SILENT  # with so much the axis may stand still, as the person has seen or an earlier move has shown
 
     @property
     def problem(self) -> str:
@@ -115,9 +117,11 @@ def _climbing(c: Controller, trial: Trial, former: Former, job: Job[Moved]) -> S
         moved = dc.replace(joined(tries, trial.counts), dead=toggling(tries))
         stood = stood + 1 if there.high - there.low <= 1 else 0
         lost = there.tripped and best > 2 and stood * best > STIRRED  # at once where it went far, else the second time
-        if not there.tripped or moved.dead or lost or there.way < -RAN or error == trial.error:
+        best = max(best, there.high - there.low)
+        silent = best <= 1 and int(error * GROWTH) > trial.silent
+        if not there.tripped or moved.dead or lost or silent or there.way < -RAN or error == trial.error:
             return dc.replace(moved, lost=lost)
-        place, best = there.end, max(best, there.high - there.low)
+        place = there.end
         if abs(target - place) < 2 * int(error * GROWTH) or (target - place) * trial.counts < 0:
             return moved  # what is left would not reach the error limit
     raise AssertionError  # the last of the errors returns

@@ -47,6 +47,7 @@ class Record:
     model: str
     serial: int = 0
     sine: bool = False
+    error: int = 0  # counts: the error limit with which it came to its target
     findings: Mapping[str, Finding] = dc.field(default_factory=dict)
     typed: Mapping[str, str] = dc.field(default_factory=dict)  # what stands in the fields, by step and name
 
@@ -98,7 +99,7 @@ def _after(key: str) -> set[str]:
 def keep(record: Record, folder: Path) -> str:
     """Writes it; a sentence where that was not possible."""
     told = {
-        **{name: getattr(record, name) for name in ("axis", "model", "serial", "sine")},
+        **{name: getattr(record, name) for name in ("axis", "model", "serial", "sine", "error")},
         "findings": {key: dc.asdict(finding) for key, finding in record.findings.items()},
         "typed": dict(record.typed),
     }
@@ -117,7 +118,8 @@ def resumed(folder: Path, axis: str, model: str, serial: int) -> Record:
         told = json.loads((folder / fresh.name).read_text(encoding="utf-8"))
         findings = {str(key): _finding(each) for key, each in told["findings"].items() if key in BY_KEY}
         typed = {str(name): str(text) for name, text in told["typed"].items()}
-        return dc.replace(fresh, sine=told["sine"] is True, findings=findings, typed=typed)
+        error = int(told.get("error", 0))
+        return dc.replace(fresh, sine=told["sine"] is True, error=error, findings=findings, typed=typed)
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return fresh
 

@@ -13,7 +13,7 @@ from device import commands
 from device.backing_up import REFUSAL_S, exact
 from device.commissioning.guarding import columns_of, power_off, switch_off
 from device.commissioning.judge import Moved
-from device.commissioning.moves import TRIAL_ERROR, Trial, move
+from device.commissioning.moves import SILENT, TRIAL_ERROR, Trial, move
 from device.commissioning.steps import MOST
 from device.download import Job
 from device.proof import proved
@@ -88,14 +88,22 @@ def drive_to_zero(c: Controller, axis: str, volts: Fraction, offset: int) -> Ste
 
 
 def by_halls(
-    c: Controller, axis: str, cycle: Fraction, torque: Fraction, folder: Path, now: datetime, job: Job[Moved]
+    c: Controller,
+    axis: str,
+    cycle: Fraction,
+    torque: Fraction,
+    folder: Path,
+    now: datetime,
+    job: Job[Moved],
+    silent: int = SILENT,
 ) -> Steps[tuple[Moved, int, int]]:
     """BC and a move over more than a sixth of the cycle (l.788-804); the state of the halls before and after it."""
     if not 6 <= cycle <= LARGEST_CYCLE:
         raise NotAllowed(f"Not moved: type the magnetic cycle first, 6 to {LARGEST_CYCLE} counts.")
     counts = max(int(cycle * 3 / 8), TRIAL_ERROR + 1)
     before = yield from exact(c.nonces, [f"_BC{axis}"], columns_of(c))
-    moved = yield from move(c, Trial(axis, counts, torque=torque, before=f"BC {axis}"), folder, now, job)
+    trial = Trial(axis, counts, torque=torque, before=f"BC {axis}", silent=silent)
+    moved = yield from move(c, trial, folder, now, job)
     after = yield from exact(c.nonces, [f"_BC{axis}"], columns_of(c))
     return moved, (before[0] or 0) // ONE, (after[0] or 0) // ONE
 

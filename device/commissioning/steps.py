@@ -32,7 +32,8 @@ class Step:
     todo: tuple[str, ...]
     read: str
     judged: str
-    source: str
+    source: str  # for whoever checks: lines of the manuals' texts
+    manual: str  # for the person: where the printed manuals say so
     drives: Drives = Drives.ANY
     moves: bool = False
     optional: bool = False
@@ -51,6 +52,7 @@ STEPS: tuple[Step, ...] = (
         "whether the controller has the motor on",
         "by what you see at the drive; without a working enable signal no error limit can protect the axis",
         "dmc-1412-1414.txt l.581-585; SSC manual l.849-851",
+        "SSC manual, chapter 2, step 6B; DMC-1412/1414 manual, chapter 2, step 7B",
     ),
     Step(
         "encoder",
@@ -62,6 +64,7 @@ STEPS: tuple[Step, ...] = (
         "the position in counts, its lowest and highest value, and how often it changed",
         "direction, counts in a unit against the setup; a reading that changes by one count only has a dead channel",
         "dmc-1412-1414.txt l.599-607; SSC manual l.863-874",
+        "SSC manual, chapter 2, step 6D; DMC-1412/1414 manual, chapter 2, step 7D",
         needs=("safety",),
     ),
     Step(
@@ -75,6 +78,7 @@ STEPS: tuple[Step, ...] = (
         "the forward limit, reverse limit and home inputs",
         "the asked one changes, no other does, and it is not active at rest",
         "dmc-1412-1414.txt l.2323-2346, 4111-4113; SSC manual l.1289, 1353",
+        "SSC manual, chapter 4; DMC-1412/1414 manual, homing and limit switches",
         optional=True,
         needs=("safety",),
     ),
@@ -88,6 +92,7 @@ STEPS: tuple[Step, ...] = (
         "OE, ER and TL as the controller holds them afterwards",
         "read back equal; the manuals' example is ER 2000, OE 1 and TL 1",
         "dmc-1412-1414.txt l.631-657; SSC manual l.885-912",
+        "SSC manual, chapter 2, steps 7B and 7C; DMC-1412/1414 manual, chapter 2, step 8a, A and B",
         Drives.SERVO,
         needs=("encoder",),
     ),
@@ -103,6 +108,7 @@ STEPS: tuple[Step, ...] = (
         "MT and KS as the controller holds them afterwards",
         "read back equal; without the jumper the controller refuses with error 96",
         "dmc-1412-1414.txt l.806-828, 2120-2147; SSC manual l.772, 934-956",
+        "SSC manual, chapter 2, step 8; DMC-1412/1414 manual, chapter 2, step 8c",
         Drives.STEPPER,
         needs=("safety",),
     ),
@@ -117,6 +123,7 @@ STEPS: tuple[Step, ...] = (
         "the controller's own answer to BS",
         "phases and halls in order, and BM close to what was typed",
         "dmc-1412-1414.txt l.703-745",
+        "DMC-1412/1414 manual, chapter 2, step 8b, C and D",
         Drives.SINE,
         moves=True,
         optional=True,
@@ -132,6 +139,7 @@ STEPS: tuple[Step, ...] = (
         "the answer to BZ, and the counts to phase zero",
         "the controller reports no error 112, 113 or 114",
         "dmc-1412-1414.txt l.755-804",
+        "DMC-1412/1414 manual, chapter 2, step 8b, F",
         Drives.SINE,
         moves=True,
         optional=True,
@@ -148,6 +156,7 @@ STEPS: tuple[Step, ...] = (
         "commanded and actual position during the move, stop code, motor command",
         "it comes to its target; what runs the other way has the wrong polarity",
         "dmc-1412-1414.txt l.659-687; SSC manual l.914-927",
+        "SSC manual, chapter 2, step 7D; DMC-1412/1414 manual, chapter 2, step 8a, D",
         Drives.SERVO,
         moves=True,
         needs=("safety", "encoder", "switches", "guards"),
@@ -163,6 +172,7 @@ STEPS: tuple[Step, ...] = (
         "commanded position, pulses sent, and the encoder where there is one",
         "by what you see; the pulses that were sent are those that were commanded",
         "dmc-1412-1414.txt l.806-828, 2126-2147; SSC manual l.934-956",
+        "SSC manual, chapter 2, step 8; DMC-1412/1414 manual, chapter 2, step 8c",
         Drives.STEPPER,
         moves=True,
         needs=("safety", "switches", "stepper"),
@@ -177,6 +187,7 @@ STEPS: tuple[Step, ...] = (
         "the hall inputs before and after, and the move",
         "the halls changed on the way, and the axis followed",
         "dmc-1412-1414.txt l.773-804",
+        "DMC-1412/1414 manual, chapter 2, step 8b, F",
         Drives.SINE,
         moves=True,
         optional=True,
@@ -192,6 +203,7 @@ STEPS: tuple[Step, ...] = (
         "how far the axis came, in counts",
         "the measured way is the commanded one within 2 %",
         "dmc-1412-1414.txt l.671-687; SSC manual l.916",
+        "SSC manual, chapter 2, step 7D; DMC-1412/1414 manual, chapter 2, step 8a, D",
         moves=True,
         optional=True,
         needs=("safety", "switches", "polarity", "direction"),
@@ -207,6 +219,7 @@ STEPS: tuple[Step, ...] = (
         "FL, BL and TL as the controller holds them afterwards",
         "read back equal, the axis between them",
         "dmc-1412-1414.txt l.657, 4135-4146; SSC manual l.912",
+        "SSC manual, chapter 2, step 7C; DMC-1412/1414 manual, chapter 2, step 8a, B; commands FL and BL",
         optional=True,
         needs=("scale",),
     ),
@@ -217,6 +230,7 @@ STEPS: tuple[Step, ...] = (
         "the controller's answer to BN",
         "accepted, with the motor off",
         "dmc-1412-1414.txt l.747-753, 832; commands.md, BN",
+        "DMC-1412/1414 manual, chapter 2, step 8b, E; command BN",
         optional=True,
         needs=("limits",),
     ),

@@ -192,7 +192,6 @@ class PageView(QWidget):
             if act.moves:  # for gloves
                 button.setStyleSheet(f"QPushButton {{ min-height: {look().space['touch'] - 4}px; }}")
             if act.moves:
-                button.setIcon(icon("warning", "accent_text" if act.primary else "warning"))
                 button.setIconSize(QSize(18, 18))
             button.clicked.connect(lambda _=False, name=act.name: self.pressed.emit(name))
             row.addWidget(button)
@@ -261,7 +260,7 @@ def _link(page: str, words: str, colour: str) -> str:
 def _heading(page: Page) -> QVBoxLayout:
     title, source = QLabel(page.heading), _words("quiet")
     title.setProperty("role", "title")
-    source.setText(f"Judged: {page.judged}.\nSource: {page.source}.")
+    source.setText(f"Judged: {page.judged}.\nSee: {page.source}.")
     source.setFont(look().small_font())
     source.setVisible(bool(page.source))
     column = QVBoxLayout()
@@ -303,7 +302,10 @@ def _show_field(editor: QLineEdit | QComboBox, field: Entered) -> None:
 
 
 def _show_act(button: QPushButton, act: Act) -> None:
-    show_role(button, "primary" if act.primary else "")
+    role = "primary" if act.primary else ""
+    if act.moves and (button.icon().isNull() or button.property("role") != role):
+        button.setIcon(icon("warning", "accent_text" if act.primary else "warning"))
+    show_role(button, role)
     if button.isEnabled() == bool(act.reason):
         button.setEnabled(not act.reason)
     if button.toolTip() != act.reason:

@@ -54,6 +54,10 @@ class Machine(Bench):
         """A channel of the encoder, "a" or "b", fails once the motor has come so far from `rest`."""
         self._dies = channel, at
 
+    def kill_encoder(self) -> None:
+        """Nothing comes from it any more: its plug is out."""
+        self.simulation.motion._parts[0][layout.ENCODER_SIGN] = 0.0
+
     def kill_channel(self, channel: str) -> None:
         """From now on the channel stays low; the counter goes on from where it is."""
         part, number = self.simulation.motion._parts[0], float(" ab".index(channel))

@@ -44,8 +44,8 @@ def turned(*counts: int) -> Turned:
         ((7, 8, 7, 8, 7, 8), "5", Verdict.FAILED, "toggles by one count"),
         ((0, -2000, -5000), "5", Verdict.FAILED, "counted the other way"),
         ((0, 2000, 5000), "-5", Verdict.FAILED, "counted the other way"),
-        ((0, 2000, 5000), "5", Verdict.PASSED, "right direction, 1000 counts in 1 mm"),
-        ((0, -4900), "-5", Verdict.PASSED, "right direction, 980 counts in 1 mm"),
+        ((0, 2000, 5000), "5", Verdict.PASSED, "right direction: 1000 counts in 1 mm"),
+        ((0, -4900), "-5", Verdict.PASSED, "right direction: 980 counts in 1 mm"),
         (
             (0, 500, 1250),
             "5",
@@ -247,4 +247,4 @@ def test_every_axis_has_its_own_steps() -> None:
     assert next(step for step in steps_for(True, False) if step.key == "encoder").optional  # l.601
     assert sine.index("zero") < sine.index("polarity")
     assert MOST == 2000
-    assert all(step.source and step.read and step.judged for step in STEPS)
+    assert all(step.source and step.manual and step.read and step.judged for step in STEPS)

@@ -267,10 +267,12 @@ def a_machine(seeds: random.Random, **faults: Any) -> Machine:
 def test_nothing_runs_far_on_any_machine(seed: int, tmp_path: Path) -> None:
     seeds = random.Random(seed)
     furthest = 0.0
-    for number in range(count(3, 35)):
-        machine = a_machine(
-            seeds, **seeds.choice([{"motor_reversed": True}, {"dead_channel": "a"}, {"dead_channel": "b"}])
-        )
+    for number in range(count(4, 40)):
+        faults: list[dict[str, Any]] = [{"motor_reversed": True}, {"dead_channel": "a"}, {"dead_channel": "b"}, {}]
+        fault = faults[number % 4]
+        machine = a_machine(seeds, **fault)
+        if not fault:
+            machine.kill_encoder()
         finding = judge_polarity(machine.try_move(tmp_path, Trial("X", 300, seeds.choice([60, 60, 400]))))
         assert finding.verdict is Verdict.FAILED, (number, finding)
         assert machine.furthest < MOST, number
@@ -299,12 +301,12 @@ def test_nothing_runs_far_when_the_encoder_dies_on_the_way(seed: int, tmp_path: 
     assert recognised > count(4, 35) // 2
 
 
-@pytest.mark.parametrize("seed", range(count(3, 40)))
+@pytest.mark.parametrize("seed", range(count(2, 40)))
 def test_sound_axes_come_to_their_target(seed: int, tmp_path: Path) -> None:
     """Whatever the error limit that it takes; more than 400 counts of error are too much friction for these gains."""
     seeds = random.Random(2000 + seed)
     machine = a_machine(seeds)
-    moved = machine.try_move(tmp_path, Trial("X", 600, 400))
+    moved = machine.try_move(tmp_path, Trial("X", 600, 400, silent=400))  # the person saw it stand still before
     finding = judge_polarity(moved)
     assert finding.verdict is Verdict.PASSED or "too little force" in finding.sentence, finding
     assert machine.furthest < 700
