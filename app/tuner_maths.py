@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -83,8 +84,7 @@ def estimate_words(estimate: Estimate) -> str:
     plant, sigma = estimate.plant, estimate.sigma
 
     def told(name: str, value: float, unit: str, scale: float = 1.0) -> str:
-        spread = f" ± {sigma[name] * scale:.2g}" if sigma.get(name) else ""
-        return f"{value * scale:.4g}{spread} {unit}"
+        return f"{with_spread(value * scale, (sigma.get(name) or 0.0) * scale)} {unit}"
 
     parts = [f"One volt gives {told('gain', plant.gain, 'counts/s²')}"]
     if plant.pole:
@@ -99,6 +99,20 @@ def estimate_words(estimate: Estimate) -> str:
     mode = " It answers like a drive in velocity mode." if plant.velocity_mode else ""
     notes = f" {' '.join(estimate.notes)}" if estimate.notes else ""
     return f"{', '.join(parts)}. {estimate.fit:.0%} of the motion is explained.{mode}{notes}"
+
+
+def with_spread(value: float, spread: float) -> str:
+    """`312 000 ± 900`: as many digits as the spread leaves of it (two of the spread), at most four."""
+    if not value:
+        return "0"
+    places = 3 - math.floor(math.log10(abs(value)))
+    if spread > 0.0:
+        places = min(places, 1 - math.floor(math.log10(spread)))
+
+    def text(number: float) -> str:
+        return f"{round(number, places):,.{max(places, 0)}f}".replace(",", " ")
+
+    return text(value) + (f" ± {text(spread)}" if round(spread, places) else "")
 
 
 def estimate_data(estimate: Estimate) -> dict[str, float | str]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from html import escape
 
 import numpy as np
@@ -51,7 +52,7 @@ def _table(entries: Sequence[Entry]) -> str:
         for entry in entries
     )
     head = "".join(f"<td><b>{each}</b></td>" for each in ("Run", "Axis", "Method", "When", "Gains", "Settled"))
-    return f"<table width='100%' cellspacing='0'><tr>{head}</tr>{rows}</table>"
+    return f"<br/><table width='100%' cellspacing='0' cellpadding='2'><tr>{head}</tr>{rows}</table><br/>"
 
 
 def _settled(entry: Entry) -> str:
@@ -86,18 +87,20 @@ def picture(response: Response, scale: float, unit: str) -> QImage:
     font = painter.font()
     font.setPixelSize(10)
     painter.setFont(font)
-    times = np.arange(len(response.actual)) * response.period * 1000.0
+    begin = int(np.argmax(response.commanded != response.commanded[0]))  # time counts from the step
+    times = (np.arange(len(response.actual)) - max(begin - 1, 0)) * response.period * 1000.0
     actual, commanded = response.actual / scale, response.commanded / scale
     low, high = float(min(actual.min(), commanded.min())), float(max(actual.max(), commanded.max()))
     room = (high - low) * 0.06 or 1.0
     low, high = low - room, high + room
     frame = QRectF(LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM)
+    first, last = float(times[0]), float(times[-1])
 
     def at(time: float, value: float) -> QPointF:
-        x = frame.left() + frame.width() * time / (times[-1] or 1.0)
+        x = frame.left() + frame.width() * (time - first) / ((last - first) or 1.0)
         return QPointF(x, frame.bottom() - frame.height() * (value - low) / (high - low))
 
-    _grid(painter, frame, float(times[-1]), low, high, unit)
+    _grid(painter, frame, at, (first, last), (low, high), unit)
     for values, colour, width in ((commanded, "#777777", 1.0), (actual, "#0067a8", 1.6)):
         painter.setPen(QPen(QColor(colour), width))
         painter.drawPolyline(QPolygonF([at(float(t), float(v)) for t, v in zip(times, values, strict=True)]))
@@ -105,17 +108,33 @@ def picture(response: Response, scale: float, unit: str) -> QImage:
     return image
 
 
-def _grid(painter: QPainter, frame: QRectF, last_ms: float, low: float, high: float, unit: str) -> None:
+def _grid(
+    painter: QPainter,
+    frame: QRectF,
+    at: Callable[[float, float], QPointF],
+    times: tuple[float, float],
+    places: tuple[float, float],
+    unit: str,
+) -> None:
     right, centre = Qt.AlignmentFlag.AlignRight, Qt.AlignmentFlag.AlignHCenter
-    for part in (0.0, 0.25, 0.5, 0.75, 1.0):
-        x, y = frame.left() + frame.width() * part, frame.bottom() - frame.height() * part
+    for number, time in enumerate(ticks := round_numbers(*times)):
+        x = at(time, places[0]).x()
         painter.setPen(QPen(QColor("#dddddd"), 0.6))
         painter.drawLine(QPointF(x, frame.top()), QPointF(x, frame.bottom()))
+        painter.setPen(QColor("#333333"))
+        label = f"{time:.4g}" + (" ms" if number == len(ticks) - 1 else "")
+        painter.drawText(QRectF(x - 40, frame.bottom() + 3, 80, 14), centre, label)
+    for number, place in enumerate(ticks := round_numbers(*places)):
+        y = at(times[0], place).y()
+        painter.setPen(QPen(QColor("#dddddd"), 0.6))
         painter.drawLine(QPointF(frame.left(), y), QPointF(frame.right(), y))
         painter.setPen(QColor("#333333"))
-        label, place = f"{last_ms * part:.0f}", QRectF(x - 30, frame.bottom() + 3, 60, 14)
-        if part == 1.0:
-            label, place = f"{label} ms", QRectF(x - 60, frame.bottom() + 3, 60, 14)
-        painter.drawText(place, centre if part < 1.0 else right, label)
-        told = f"{low + (high - low) * part:.4g}" + (f" {unit}" if part == 1.0 else "")
+        told = f"{place:.4g}" + (f" {unit}" if number == len(ticks) - 1 else "")
         painter.drawText(QRectF(0, y - 7, LEFT - 4, 14), right, told)
+
+
+def round_numbers(low: float, high: float, most: int = 6) -> list[float]:
+    """At most so many round numbers within a range: 1, 2 or 5 of a decade apart."""
+    decade = 10.0 ** math.floor(math.log10((high - low) / most))
+    apart = next(decade * each for each in (1.0, 2.0, 5.0, 10.0) if (high - low) / (decade * each) <= most)
+    return [number * apart for number in range(math.ceil(low / apart), math.floor(high / apart) + 1)]

@@ -287,9 +287,9 @@ def _margin_and_keys(stage: Stage, panel: TunerPanel) -> None:
     before, gains = part.proposal, panel.manual.gains.texts
     stage.go()  # the diagram has found its range
     aside = plot.phase.getViewBox().viewRange()[0][0] + 0.5
-    drag(plot.phase.viewport(), at(plot.phase, aside, plot.margin.value()), at(plot.phase, aside, 60.0 - 180.0))
+    drag(plot.phase.viewport(), at(plot.phase, aside, plot.margin.value()), at(plot.phase, aside, 75.0 - 180.0))
     worked(stage, lambda: part.proposal is not before)
-    assert float(panel.model.phase.text()) == pytest.approx(60, abs=4)
+    assert float(panel.model.phase.text()) == pytest.approx(75, abs=4)
     assert part.proposal is not None and part.proposal.margins is not None and part.proposal.gains is not None
     assert part.proposal.margins.phase == pytest.approx(float(panel.model.phase.text()), abs=5)
     assert panel.manual.gains.texts != gains

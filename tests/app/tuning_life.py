@@ -66,10 +66,12 @@ class Hand:
             return
         if not controller.control:
             controller.take_control()
-            self.studio.actions["tune"].trigger()
             return
         panel = self.studio.at_machine.tuning.panel
-        if not panel.isVisible() or panel.bode_plot is None or panel.running:
+        if not panel.isVisible():
+            self.studio.actions["tune"].trigger()
+            return
+        if panel.bode_plot is None or panel.running:
             return
         if not panel.axes.count():
             return  # it does not know its machine yet

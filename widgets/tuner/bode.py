@@ -23,6 +23,7 @@ HERTZ = 2 * math.pi  # rad/s
 HERTZ_TICKS = [digit * 10.0**decade for decade in range(-2, 4) for digit in (1, 2, 5)]
 KEY_RATIO, KEY_DEGREES = 1.02, 1.0  # of one arrow key
 LEAST_PHASE, MOST_PHASE = 5.0, 85.0  # degrees that can be asked for
+LOWEST_PHASE = -270.0  # degrees; what lies below says nothing and takes the room of the handle
 GRIP = 13.0  # px of the grip on a handle
 
 
@@ -170,6 +171,8 @@ class BodePlot(QWidget):
         legend = self.gain.getPlotItem().legend
         legend.setLabelTextColor(now.colour("text"))
         legend.setLabelTextSize(f"{now.fonts['small_points']:g}pt")
+        for _, label in legend.items:
+            label.setText(label.text)
 
     def _draw(self) -> None:
         for line in (self.crossover, self.below, self.margin):
@@ -184,9 +187,11 @@ class BodePlot(QWidget):
         for values, name in ((bode.plant, "Axis"), (bode.loop, "Loop")):
             gain, phase = self.curves[name]
             gain.setData(hertz, 20 * np.log10(np.abs(values[seen]) + 1e-12))
-            phase.setData(hertz, _phase(values)[seen])
+            angle = _phase(values)[seen]
+            phase.setData(hertz, np.where(angle < LOWEST_PHASE, np.nan, angle), connect="finite")
         for line in (self.crossover, self.below):
             line.setBounds((math.log10(hertz[0]), math.log10(hertz[-1])))
+        self._tell()  # what is not seen is not told its value
 
     def _seen(self, bode: Bode) -> slice:
         """The part that matters: two decades around the crossover, up to where the sampling ends it."""

@@ -78,6 +78,7 @@ class AutomaticPage(QWidget):
         self.trials, self.about, self.result = QListWidget(), _words(AUTOMATIC), _words()
         self.trials.setAccessibleName("Trials")
         self.trials.setWordWrap(True)
+        self.trials.setSpacing(3)
         self.trials.setMinimumHeight(120)
         column = _column(self)
         column.addWidget(self.about)
@@ -194,6 +195,7 @@ class LogbookPage(QWidget):
         self.back.setToolTip("The gains of the chosen run into the fields of the manual page")
         self.runs.setAccessibleName("Runs")
         self.runs.setMinimumHeight(160)
+        self.runs.setSpacing(2)
         self.note.setAccessibleName("Note of the chosen run")
         self.note.setPlaceholderText("Note on the chosen run")
         self._filling = False

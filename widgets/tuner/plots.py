@@ -6,7 +6,7 @@ Import it late: pyqtgraph takes longer to load than the first window may take to
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pyqtgraph
@@ -80,7 +80,8 @@ class StepPlot(QWidget):
         self.torque.name_sides("Time, ms", "Torque, V")
         self._legend()
         for number, curve in enumerate(self._curves):
-            self._draw(curve, number, number == len(self._curves) - 1)
+            front = number == len(self._curves) - 1
+            self._draw(curve if front else alike(curve, self._curves[-1]), number, front)
 
     def _legend(self) -> None:
         legend = self.position.getPlotItem().legend
@@ -117,6 +118,15 @@ class StepPlot(QWidget):
         super().changeEvent(event)
         if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "position"):
             self.draw()
+
+
+def alike(curve: Curve, front: Curve) -> Curve:
+    """A response to the other side, mirrored, so that both can be compared."""
+    own, other = curve.response, front.response
+    if (own.commanded[-1] - own.commanded[0]) * (other.commanded[-1] - other.commanded[0]) >= 0:
+        return curve
+    turned = Response(own.period, -own.commanded, -own.actual, -own.volts)
+    return replace(curve, response=turned, name=f"{curve.name}, mirrored")
 
 
 def _colour(letter: str, number: int, quiet: bool) -> QColor:

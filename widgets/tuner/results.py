@@ -51,7 +51,7 @@ class Results(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(4)
-        column.addWidget(bode_plot, 1)
+        column.addWidget(bode_plot, 4)
         row = QHBoxLayout()
         self.metrics.setWordWrap(True)
         self.metrics.setAccessibleName("Measured")
@@ -64,7 +64,7 @@ class Results(QWidget):
         row.addWidget(self.zero)
         row.addWidget(self.save)
         column.addLayout(row)
-        column.addWidget(step_plot, 1)
+        column.addWidget(step_plot, 3)
         column.addWidget(self.metrics)
 
 
