@@ -11,6 +11,7 @@ from collections import deque
 
 LATE = re.compile("\x1e([a-z0-9]{2})[ 0-9.-]*\x1f\r\n")
 FAULT = re.compile(r"\?\s*([0-9]{3}) ")  # how the controller tells of an error: `?`, the line's number, its text
+LONE_RETURN = re.compile("\r(?=[^\n])")  # as some echo it
 REPLIES = re.compile("(?:^|(?<=[\r\n]))[:?]+")  # prompts and refusals stand where a line begins
 
 
@@ -22,11 +23,12 @@ class Leftover:
         self._owed: deque[int] = deque()
         self._lines: deque[str] = deque()
         self.echoes: deque[str] = deque(maxlen=8)  # lines that were sent
+        self.echoed = False  # whether the last line sent came back
         self.seen: deque[str] = deque(maxlen=16)  # marks of frames that came too late
         self.taken: dict[str, str] = {}  # by mark: what was taken for a refusal; text, if the frame comes after all
 
     def add(self, text: str) -> None:
-        self._text = LATE.sub(self._late, self._text + text)
+        self._text = LONE_RETURN.sub("\r\n", LATE.sub(self._late, self._text + text))
         while "\n" in self._text:
             line, self._text = self._text.split("\n", 1)
             raw = line.rstrip("\r")
@@ -35,6 +37,7 @@ class Leftover:
                 continue
             told = FAULT.match(line)  # an error tells the line of the program, which we may have sent a moment ago
             echo = "" if told else next((echo for echo in self.echoes if line.endswith(echo)), "")
+            self.echoed |= bool(echo)
             if not echo or line != echo:
                 self._lines.append(line.removesuffix(echo))
 
@@ -72,6 +75,8 @@ class Leftover:
 
     def settled(self) -> None:
         """Something was answered, so everything sent before it has been: what has not come will not."""
+        if self._text.endswith("\r"):
+            self.add("\n")
         self._text = self.unprompted(self._text)
         self._owed.clear()
         self.taken.clear()

@@ -12,12 +12,12 @@ from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from device.door import LEAVE, Door
-from device.outgoing import Outgoing, say_last
+from device.outgoing import Echo, Outgoing, say_last
 from device.proof import bare
 from device.stop import stop_bytes
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Send, Step, Steps, Stopped, Task, Wait
 from device.transport import LineSettings, OpenFailed, Transport, TransportLost
-from device.wire import Answer, Kind, Wire
+from device.wire import Answer, Frame, Kind, Proof, Wire
 
 T = TypeVar("T")
 PROMPT_QUIET_S = 0.06  # text without a line end that stands this long may be a question
@@ -67,7 +67,7 @@ class Link:
         self._ready: list[Task[Any]] = []
         self._current: Task[Any] | None = None
         self._holder: Task[Any] | None = None
-        self._out = Outgoing(line, clock)
+        self._out, self._echo = Outgoing(line, clock), Echo()
         self._deadline = 0.0
         self._last_byte = 0.0
         self._told_rest = ""
@@ -210,7 +210,7 @@ class Link:
     def _receive(self) -> None:
         assert self.transport is not None
         busy = self._out or self._current is not None
-        data = self.transport.read(0.002 if busy else 0.005)
+        data = self._echo.taken_from(self.transport.read(0.002 if busy else 0.005))
         now = self._clock()
         if data:
             self._last_byte, self._noise = now, True
@@ -258,6 +258,8 @@ class Link:
             answer = self.wire.give_up()
         self._silences = 0 if answer.kind is not Kind.SILENT else self._silences + 1
         self._noise &= self._silences > 1  # half an answer, cut off by a pulled cable, is none
+        if isinstance(task.step.expect, Frame | Proof):
+            self._echo.on = self.wire.left.echoed
         self.sure = answer.kind in (Kind.VALUES, Kind.ACCEPTED, Kind.REFUSED) and answer.certain
         self._current = None
         self._advance(task, answer)
@@ -314,6 +316,7 @@ class Link:
             return
         self._current = task
         self._holder = task if step.hold else None
+        self._echo.sent(step.data, transfer=step.hold and not isinstance(step.expect, Frame | Proof))
         self.wire.expect(step.expect, step.data.rstrip(b"\r").decode("ascii", "replace"))
         self._out.put(step.data)
         self._deadline = self._clock() + step.timeout_s

@@ -65,6 +65,35 @@ class Outgoing:
         return not self._left
 
 
+class Echo:
+    """What a controller that echoes (EO 1) sends back of lines that get no answer: no reply to them, and no text."""
+
+    def __init__(self) -> None:
+        self.on = False  # as the last answer has shown
+        self._pending = bytearray()
+        self._returned = False  # a return was echoed just now: a line feed may follow
+
+    def sent(self, data: bytes, transfer: bool) -> None:
+        """Lines of a transfer come back byte by byte; behind it whole lines are recognised."""
+        if not transfer:
+            self._pending.clear()
+        elif self.on:
+            self._pending += data
+
+    def taken_from(self, data: bytes) -> bytes:
+        """What came besides."""
+        if not self._pending and not self._returned:
+            return data
+        kept = bytearray()
+        for byte in data:
+            if self._pending and byte & 0x7F == self._pending[0]:
+                del self._pending[0]
+                self._returned = byte & 0x7F == 0x0D
+            elif not (self._returned and byte & 0x7F == 0x0A):
+                kept.append(byte)
+        return bytes(kept)
+
+
 def say_last(transport: Transport, words: bytes, clock: Callable[[], float]) -> None:
     """Closing a port throws away what has not left: so the stop of what moves by hand is waited for."""
     end = clock() + LAST_S

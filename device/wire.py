@@ -165,6 +165,7 @@ class Wire:
             self.left.owe(expectation.before)
         if sent:
             self.left.echoes.append(sent)
+            self.left.echoed = False
 
     @property
     def question(self) -> bool:
@@ -350,7 +351,8 @@ class Wire:
         text = plain.decode("ascii")
         echoes = self.left.echoes
         if echoes and text.startswith(echoes[-1]):
-            text = text[len(echoes[-1]) :].removeprefix("\r\n")
+            text = re.sub("^\r\n?", "", text[len(echoes[-1]) :])
+            self.left.echoed = True
         return text
 
     def _take(self, count: int) -> None:

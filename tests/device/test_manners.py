@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from codegen.models import model
-from device.api import Controller
+from device.api import Controller, NoticeKind, StopState
 from device.simulator.simulation import Simulation
 from device.simulator.twoletter.profile import Profile
 from device.simulator.twoletter.profile_file import ProfileUnreadable, profile_text
@@ -64,6 +64,28 @@ def test_all_at_once() -> None:
             prompt_per_command=False, error_ends_line=False, program_end="nothing", echo_return="CR", status_sign=True
         )
     )
+
+
+@pytest.mark.parametrize("answers", ["CR LF", "CR"])
+def test_a_controller_that_echoes_is_understood(answers: str) -> None:
+    """EO 1 (dmc-1412-1414.txt l.1348): every character comes back, prompts and refusals of a program's text too."""
+    bench = bench_with(echo_return=answers)
+    assert bench.ask("EO 1") == ""
+    works(bench)
+    listing = '#A\nMG "SURE?:"\nIN "HOW MANY?",N\nEN\n'
+    assert bench.result(bench.controller.download(listing).future).verified
+    assert bench.result(bench.controller.upload().future) == listing
+    bench.controller.notices()
+    bench.result(bench.controller.execute("A", anyway=True))
+    bench.run_until(lambda: bench.controller.pending_prompt is not None)
+    prompt = bench.controller.pending_prompt
+    assert prompt is not None and prompt.text == "HOW MANY?"
+    bench.result(bench.controller.answer("12"))
+    bench.run(1.0)
+    assert [each.text for each in bench.controller.notices() if each.kind is NoticeKind.MESSAGE] == ["SURE?:"]
+    assert bench.ask("MG N{F3.0}").strip() == "012"
+    bench.controller.stop()
+    bench.run_until(lambda: bench.controller.stop_state is StopState.STOPPED, 2.0)
 
 
 def test_marked_messages_are_read_all_the_same() -> None:

@@ -121,11 +121,32 @@ def test_no_stillness_within_the_stopping_time_aborts() -> None:
     assert b"AB\r" in bench.sent
 
 
+def held_by_cts(bench: Bench) -> None:
+    """The driver takes what fits into its buffer, and nothing of it leaves."""
+    held = bytearray()
+
+    def write(data: bytes) -> int:
+        held.extend(data)
+        return len(data)
+
+    bench.loopback.write = write  # type: ignore[method-assign]
+    bench.loopback.unsent = lambda: len(held)  # type: ignore[method-assign]
+    bench.loopback.discard_output = held.clear  # type: ignore[method-assign]
+
+
+SILENT = {
+    "cable out": lambda bench: setattr(bench.loopback, "unplugged", True),
+    "controller off": lambda bench: bench.simulation.stimulus("reset", 0),
+    "CTS held": held_by_cts,
+}
+
+
+@pytest.mark.parametrize("silence", SILENT)
 @pytest.mark.parametrize("state", ["command mode", "running program", "XOFF"])
-def test_without_an_answer_it_is_not_confirmed_within_half_a_second(state: str) -> None:
+def test_without_an_answer_it_is_not_confirmed_within_half_a_second(state: str, silence: str) -> None:
     bench = set_up("jog")
     put_into(bench, state)
-    bench.loopback.unplugged = True
+    SILENT[silence](bench)
     start = bench.loopback.clock()
     bench.controller.stop()
     bench.run_until(lambda: bench.controller.stop_state is StopState.NOT_CONFIRMED, 1.0)
