@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
+from app.loading import load
+from device.api import State
+from tests.app.pauses import Ticks, judged
 from tests.stage import Stage, make_studio
+from widgets.panel import Panel
 
 
 def shown(folder: Path) -> Stage:
@@ -42,3 +47,76 @@ def test_one_that_was_open_is_open_where_it_was(qapp: QApplication, tmp_path: Pa
     assert window.dockWidgetArea(window.docks["Jog"]) == Qt.DockWidgetArea.LeftDockWidgetArea
     assert not window.docks["Events"].isVisible()
     again.clear_away()
+
+
+COMMAND = "pytest tests/app/test_late_panels.py"
+ACTIONS = {  # what a person opens them with; the others have a tab in the first window
+    "Jog": "jog", "X-Y view": "plane", "Teach": "teach", "Operator terminal": "operator", "Tuner": "tune",
+    "Scope": "scope", "Variables": "variables", "Events": "events", "Recorder": "recorder",
+}  # fmt: skip
+
+
+def opened(stage: Stage, title: str) -> None:
+    """Brought in front as a person does it."""
+    if title in ACTIONS:
+        stage.studio.actions[ACTIONS[title]].trigger()
+    else:
+        stage.studio.desk.bring(title)
+
+
+def first_looks(folder: Path) -> dict[str, float]:
+    """A studio from its first tick on; then each panel is seen for the first time, a controller connected."""
+    folder.mkdir()
+    stage = make_studio(folder)
+    ticks, studio = Ticks(stage), stage.studio
+    studio.window.resize(1280, 800)
+    studio.window.show()
+    QApplication.processEvents()
+    assert not studio.late.making.done
+    ticks.phase("longest tick after the start", then=20)
+    assert studio.late.making.done  # half a second
+    ticks.phase("longest tick while connecting", lambda: stage.connect("simulator", "ssc4", answers=False),
+        lambda: stage.controller.state is State.READY, then=10)  # fmt: skip
+    for title in studio.window.docks:
+        name = f"longest tick of the first look at {title}"
+        ticks.phase(name, lambda title=title: opened(stage, title), then=4)
+        ticks.phase(name, true=lambda title=title: in_front(stage, title), then=10)
+    stage.clear_away()
+    return ticks.worst
+
+
+def in_front(stage: Stage, title: str) -> bool:
+    """It can be seen, and all of it is made."""
+    content = stage.studio.window.docks[title].content
+    return not isinstance(content, Panel) or (content.in_sight and content.making.done)
+
+
+@pytest.mark.alone
+def test_no_first_look_holds_the_window_up(qapp: QApplication, tmp_path: Path) -> None:
+    """The window's own time on the processor, tick by tick, once what panels are made of is loaded."""
+    load()
+    folders = iter(range(100))
+    judged(COMMAND, lambda: first_looks(tmp_path / str(next(folders))))
+
+
+@pytest.mark.alone
+def test_connecting_with_each_panel_in_front(stage: Stage) -> None:
+    """Panels make what they show when a controller is there: so each is in front once when that happens."""
+    load()
+    studio = stage.studio
+
+    def connecting() -> dict[str, float]:
+        ticks = Ticks(stage)
+        for title in studio.window.docks:
+            studio.connection.go_offline()
+            opened(stage, title)
+            stage.go(6)
+            ticks.phase(
+                f"longest tick while connecting, {title} in front",
+                lambda: stage.connect("simulator", "ssc2", answers=False),
+                lambda: stage.controller.state is State.READY,
+                then=5,
+            )
+        return ticks.worst
+
+    judged(COMMAND, connecting)

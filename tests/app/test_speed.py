@@ -10,13 +10,14 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QElapsedTimer, Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.compose import Studio
 from app.connection import connector
 from app.help_pages import Pages
+from app.loading import load
 from app.settings import Settings
 from codegen.instructions import Output, SingleAxisMove, Wait
 from codegen.setup import Axis, Setup, Unit
@@ -24,12 +25,16 @@ from device.api import Badge, LineSettings, State, StopState
 from device.recorder import Recorder
 from device.simulator.process import SimulatorProcess
 from tests.app.hands import until
-from tests.long import count, record
+from tests.app.pauses import LIMIT_MS, Heart, Ticks, judged
+from tests.long import count, is_long, record
 from tests.stage import Stage
 from tests.widgets.program.test_speed import FULL_SPEED_MS, beside
+from widgets.teach.panel import SCREEN
+from widgets.tuner.panel import MODEL
 
-LIMIT_MS = 50.0
 STEPS = 60
+COMMAND = "pytest tests/app/test_speed.py"
+CHANNELS = ("Position X", "Position Y", "Position error X", "Motor command X")
 
 
 def long_program(session: object) -> None:
@@ -39,44 +44,119 @@ def long_program(session: object) -> None:
         session.insert([kinds[number % 3]])  # type: ignore[attr-defined]
 
 
-@pytest.mark.alone
-def test_no_tick_takes_long_whatever_the_controller_does(stage: Stage) -> None:
-    """Time of the window's own thread on the processor, tick by tick; the machine runs in virtual time."""
-    worst: dict[str, float] = {}
-
-    def phase(name: str, true: Callable[[], object], seconds: float = 60.0) -> None:
-        end = stage.clock.now + seconds
-        while not true():
-            assert stage.clock.now < end, name
-            stage.clock.pass_by(0.033)
-            before = time.thread_time()
-            stage.studio.tick.once()
-            QApplication.processEvents()
-            worst[name] = max(worst.get(name, 0.0), 1000 * (time.thread_time() - before))
-
-    studio = stage.studio
-    long_program(studio.session)
-    for _ in range(3):  # fonts, icons and layouts are loaded once
-        stage.go()
+def working(stage: Stage) -> dict[str, float]:
+    """Everything that goes over the line, the longest tick of each; the machine runs in virtual time."""
+    ticks, studio = Ticks(stage), stage.studio
     rig = stage.connect("machine", studio.model(), answers=False)
-    phase("connecting", lambda: stage.controller.state is State.READY)
+    ticks.phase("longest tick while connecting", true=lambda: stage.controller.state is State.READY)
     stage.controller.take_control()
-    studio.run.download()
-    phase("downloading", lambda: not studio.run.doing)
+    ticks.phase("longest tick while downloading", studio.run.download, lambda: not studio.run.doing)
     assert stage.controller.program_badge is Badge.SAME
     rig.simulation.stimulus("in1", 0)
-    studio.run.execute()
-    end = stage.clock.now + 3.0
-    phase("running", lambda: stage.clock.now > end)
-    studio.run.upload()
-    phase("uploading", lambda: not studio.run.doing)
-    rig.cut()
-    phase("losing the line", lambda: stage.controller.state is State.LOST)
+    ticks.phase("longest tick while running", studio.run.execute, then=90)
+    ticks.phase("longest tick while uploading", studio.run.upload, lambda: not studio.run.doing)
+    ticks.phase("longest tick while losing the line", rig.cut, lambda: stage.controller.state is State.LOST)
     rig.loopback.unplugged = False
-    phase("coming back", lambda: stage.controller.state is State.READY)
-    for name, figure in worst.items():
-        record(f"longest tick while {name}", "pytest tests/app/test_speed.py", None, figure, "ms")
-    assert {name: figure for name, figure in worst.items() if figure > LIMIT_MS} == {}
+    ticks.phase("longest tick while coming back", true=lambda: stage.controller.state is State.READY)
+    return ticks.worst
+
+
+@pytest.mark.alone
+def test_no_tick_takes_long_whatever_the_controller_does(stage: Stage) -> None:
+    """Time of the window's own thread on the processor, tick by tick."""
+    long_program(stage.studio.session)
+    for _ in range(3):  # fonts, icons and layouts are loaded once
+        stage.go()
+    judged(COMMAND, lambda: working(stage), bare=is_long())
+
+
+def captured(stage: Stage, ticks: Ticks) -> None:
+    """Four channels, the trigger at once; then the same values in each view, and live."""
+    studio = stage.studio
+    studio.actions["scope"].trigger()
+    stage.go(3)
+    scope, body = studio.at_machine.scope, studio.at_machine.curves.body
+    assert body is not None
+    for slot, label in zip(body.choices.slots, CHANNELS, strict=True):
+        slot.what.setCurrentIndex(slot.what.findText(label))
+    body.choices.count.setValue(count(60, 500))
+    stage.go(3)
+    for turn in ("first", "next"):
+        ticks.phase(f"longest tick of the {turn} capture", body.bar.capture.click, lambda: scope.job is None, then=5)
+        assert body.shown is not None and body.shown.complete
+    ticks.phase("longest tick while live values roll", body.bar.live.click, then=count(30, 900))
+    assert scope.roll is not None
+    body.bar.live.click()
+
+
+def tuned(stage: Stage, ticks: Ticks) -> None:
+    """A step, measured; in the long run an axis is identified too."""
+    studio = stage.studio
+    studio.actions["tune"].trigger()
+    panel = studio.at_machine.tuning.panel
+    stage.until(lambda: panel.step_plot is not None)
+    stage.until(lambda: panel.box.words.text().startswith("X moves by"))
+    panel.box.seconds.setCurrentIndex(0)
+    panel.box.free.click()
+    stage.go(2)
+    ticks.phase("longest tick of a tuner's step", panel.box.begin.click, lambda: not panel.running, then=5)
+    assert panel.results.metrics.text().startswith("Rise")
+    if is_long():
+        panel.buttons[MODEL].click()
+        stage.go(3)
+        model = studio.at_machine.tuning.tuner.model
+        panel.box.free.click()
+        stage.go(2)
+        ticks.phase("longest tick while identifying", panel.box.begin.click, lambda: not panel.running, then=5)
+        end = time.monotonic() + 60  # the mathematics takes real time
+        while model.proposal is None:
+            assert time.monotonic() < end
+            ticks.phase("longest tick while identifying", then=1)
+
+
+def taught(stage: Stage, ticks: Ticks) -> None:
+    """The stick drives and the whole way is recorded; then it becomes rows."""
+    studio = stage.studio
+    studio.actions["teach"].trigger()
+    stage.go(3)
+    panel = studio.at_machine.table
+    parts = panel.parts
+    assert parts is not None
+    parts.source.setCurrentIndex(parts.source.findData(SCREEN))
+    parts.enable.setFocus()
+    parts.enable.click()
+    stage.go(10)
+    assert panel.enabled, panel.words()
+    parts.way.click()
+    parts.stick.setFocus()
+    QTest.keyPress(parts.stick, Qt.Key.Key_Right)
+    ticks.phase("longest tick while a way is recorded", then=count(45, 900))
+    QTest.keyRelease(parts.stick, Qt.Key.Key_Right)
+    stage.go(15)
+    ticks.phase("longest tick while a way becomes rows", parts.way.click, then=3)
+    parts.enable.click()
+    assert len(studio.at_machine.teach.table)
+
+
+@pytest.mark.alone
+def test_no_tick_takes_long_while_something_is_recorded(stage: Stage) -> None:
+    """Captures, live values, tuning, teaching."""
+    load()
+    axis = Axis(unit=Unit.MM, counts_per_unit="1000", reverse_limit="-500", forward_limit="500")
+    setup = Setup(model="ssc2").with_axis("X", axis).with_axis("Y", axis)
+    stage.studio.session.set_setup(setup)
+    stage.connect("simulator", "ssc2")
+    stage.controller.take_control()
+    stage.rig.type("SH")
+
+    def recording() -> dict[str, float]:
+        ticks = Ticks(stage)
+        for part in (captured, tuned, taught):
+            part(stage, ticks)
+            stage.go(5)
+        return ticks.worst
+
+    judged(COMMAND, recording)
 
 
 @pytest.fixture
@@ -92,39 +172,6 @@ def studio(tmp_path: Path, qapp: QApplication) -> Iterator[Studio]:
     studio.session.close()
     studio.window.hide()
     studio.window.deleteLater()
-
-
-def queued_ms() -> float:
-    """How long this thread was ready but other programs had the processors, all in all (Linux tells)."""
-    told = Path("/proc/thread-self/schedstat")
-    return int(told.read_text().split()[1]) / 1e6 if told.exists() else 0.0
-
-
-class Heart:
-    """Beats every 5 ms in the window's thread; keeps the pauses, without the time that other programs took."""
-
-    def __init__(self) -> None:
-        self.pauses: list[float] = []
-        self._since, self._queued = QElapsedTimer(), 0.0
-        self._timer = QTimer(interval=5, timerType=Qt.TimerType.PreciseTimer)
-        self._timer.timeout.connect(self._beat)
-
-    def start(self) -> None:
-        self.pauses.clear()
-        self._since.start()
-        self._queued = queued_ms()
-        self._timer.start()
-
-    def stop(self) -> list[float]:
-        """The longest pauses in ms, longest first."""
-        self._timer.stop()
-        return sorted(self.pauses, reverse=True)
-
-    def _beat(self) -> None:
-        queued = queued_ms()
-        self.pauses.append(self._since.nsecsElapsed() / 1e6 - (queued - self._queued))
-        self._since.restart()
-        self._queued = queued
 
 
 @pytest.mark.alone
@@ -177,26 +224,29 @@ def test_the_window_answers_while_the_link_works(studio: Studio) -> None:
 @pytest.mark.alone
 @pytest.mark.long
 @pytest.mark.timeout(600)
-def test_connecting_with_each_panel_in_front(studio: Studio) -> None:
-    """Panels make what they show when a controller is there: so each is in front once when that happens."""
+def test_the_window_answers_from_the_start_on(studio: Studio) -> None:
+    """True time: what is loaded beside the window, then each panel seen for the first time, a simulator connected."""
     heart, found = Heart(), {}
     studio.window.resize(1280, 800)
     until(lambda: studio.window.isVisible(), "the window")
-    QTest.qWait(200)
     before = beside()
-    for title in list(studio.window.docks):
-        studio.connection.go_offline()
-        studio.desk.bring(title)
-        QTest.qWait(300)
+
+    def phase(name: str, begin: Callable[[], object], true: Callable[[], bool]) -> None:
         heart.start()
-        studio.connection.open_simulator("ssc2", LineSettings(baud=19200))
-        until(lambda: studio.connection.controller.state is State.READY, "the controller")
-        QTest.qWait(300)
-        found[title] = heart.stop()[:3]
-        record(
-            f"longest pause while connecting, {title}", "pytest tests/app/test_speed.py", None, found[title][0], "ms"
-        )
-    print({title: [round(each, 1) for each in pauses] for title, pauses in found.items()})
+        begin()
+        until(true, name)
+        QTest.qWait(500)
+        found[f"longest pause {name}"] = heart.stop()[:3]
+
+    phase("after the start", lambda: None, lambda: studio.late.making.done)
+    phase("while panels are loaded", lambda: studio.loading.begin(0), lambda: studio.loading.ready)
+    connect = partial(studio.connection.open_simulator, "ssc2", LineSettings(baud=19200))
+    phase("while connecting", connect, lambda: studio.connection.controller.state is State.READY)
+    for title in studio.window.docks:
+        phase(f"of the first look at {title}", partial(studio.late.bring, title), lambda: True)
+    for name, pauses in found.items():
+        record(name, COMMAND, None, pauses[0], "ms")
+    print({name: [round(each, 1) for each in pauses] for name, pauses in found.items()})
     limit = LIMIT_MS * max(1.0, max(before, beside()) / FULL_SPEED_MS)
-    too_long = {title: pauses for title, pauses in found.items() if pauses[0] > 2 * limit or pauses[1] > limit}
+    too_long = {name: pauses for name, pauses in found.items() if pauses[0] > 2 * limit or pauses[1] > limit}
     assert not too_long  # one pause may have been lengthened by the system, but not for ever

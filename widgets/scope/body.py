@@ -98,6 +98,7 @@ class Body(QWidget):
         elif not controller.control:
             reason = "This is Watch: switch to Control first; a capture writes arrays in the controller."
         self.bar.allow(reason, controller.kind is not Kind.OFFLINE)
+        self.chart.prepare()
 
     def show_progress(self, phase: str, fraction: float, remaining_s: float) -> None:
         self.bar.show_progress(phase, fraction, remaining_s)
@@ -124,6 +125,8 @@ class Body(QWidget):
         self._roll = roll
         self._following = True
         self.bar.show_live(roll is not None)
+        if roll is not None:
+            self.bar.show_result("")
         self.redraw(fit=True)
 
     def roll_on(self, now: float) -> None:
@@ -243,9 +246,9 @@ class Body(QWidget):
     def _toggle_cursors(self, on: bool) -> None:
         """Cursors stand at moments: a live picture is held for them."""
         low, high = self.chart.range
-        third = (high - low) / 3
         if on and self._roll is not None and self.bar.view is View.TIME:
-            self._following = False
+            self._following, high = False, max(min(high, self._roll.end), low)
+        third = (high - low) / 3
         self.chart.show_cursors((low + third, high - third) if on else None)
 
     def _view_chosen(self) -> None:
@@ -309,7 +312,7 @@ class Body(QWidget):
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         scroll.setAccessibleName("What is captured")
-        scroll.setMinimumWidth(230)
+        scroll.setMinimumWidth(250)
         middle, self.empty = QWidget(parts), QLabel(EMPTY)
         self._middle = QVBoxLayout(middle)
         self._middle.setContentsMargins(0, 0, 0, 0)
@@ -325,7 +328,7 @@ class Body(QWidget):
         self._beside.addWidget(self.between)
         self.between.setWordWrap(True)
         parts.setStretchFactor(1, 1)
-        parts.setSizes([270, 700, 330])
+        parts.setSizes([300, 680, 330])
         parts.setCollapsible(1, False)
 
     def _connect(self) -> None:

@@ -19,9 +19,11 @@ from widgets.parts.plot import Plot
 FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
 FEW_TOGETHER = 5000  # of all curves
 WAY = 60  # heights of the picture that a smooth curve may go up and down
+NAMED = 20  # px above the curves for their names
 TITLED = 110  # px of height from which on a strip has titles at its sides
 FADED = 90  # opacity of an overlaid curve, of 255
 NAMES = ("A", "B")
+SPARE = 3  # strips that are made before they are needed
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,9 +43,9 @@ class Line:
 class Strip(Plot):
     """One scale of the picture; what is done to its time is done to all."""
 
-    def __init__(self, chart: Chart, name: str, equal: bool) -> None:
+    def __init__(self, chart: Chart) -> None:
         self._chart = chart
-        super().__init__(name, equal=equal)
+        super().__init__("Curves", parent=chart)
         self.items: list[Any] = []
         self._pens: list[tuple[Any, ...]] = []
         self.setMinimumHeight(60)
@@ -59,9 +61,12 @@ class Strip(Plot):
             self.show_titles()
 
     def show_titles(self) -> None:
-        high = self.height() >= TITLED
+        """The one at the side only where it is not cut; above the curves the names have room of their own."""
+        side = self.getAxis("left").label.boundingRect().width() + 2 * NAMED
+        high = self.height() >= max(TITLED, side)
+        self.getPlotItem().layout.setContentsMargins(1, NAMED if self.height() >= TITLED else 1, 1, 1)
         self.getAxis("left").showLabel(high and bool(self.getAxis("left").labelText))
-        self.getAxis("bottom").showLabel(high and bool(self.getAxis("bottom").labelText))
+        self.getAxis("bottom").showLabel(self.height() >= TITLED and bool(self.getAxis("bottom").labelText))
 
     def fit_own(self) -> None:
         """This strip alone."""
@@ -120,6 +125,7 @@ class Chart(QWidget):
         super().__init__(parent)
         self.setAccessibleName("Curves")
         self.strips: dict[str, Strip] = {}
+        self._spare: list[Strip] = []  # as new
         self.cursors: list[float] | None = None
         self._chosen = 0
         self._step = 0.001
@@ -132,6 +138,18 @@ class Chart(QWidget):
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(2)
+
+    def prepare(self) -> None:
+        """A strip for the next picture, one with each tick: made when they are needed the window would stand still."""
+        if len(self._spare) < SPARE:
+            self._spare.append(self._made())
+
+    def _made(self) -> Strip:
+        strip = Strip(self)
+        strip.hide()
+        strip.panned.connect(self.panned)
+        strip.getViewBox().setMouseEnabled(x=True, y=True)
+        return strip
 
     # ------------------------------------------------------------------ drawing
 
@@ -172,14 +190,15 @@ class Chart(QWidget):
         self.strips, self._lines, self._marks, self._legends, self._named = {}, {}, {}, {}, {}
         first: Strip | None = None
         for number, group in enumerate(groups):
-            strip = self.strips[group] = Strip(self, f"Curves of {group.lower()}" if group else "Curves", equal)
-            strip.panned.connect(self.panned)
-            strip.getViewBox().setMouseEnabled(x=True, y=True)
+            strip = self.strips[group] = self._spare.pop() if self._spare else self._made()
+            strip.setAccessibleName(f"Curves of {group.lower()}" if group else "Curves")
+            strip.setAspectLocked(equal)
             legend = self._legends[group] = QLabel(strip)
             legend.setTextFormat(Qt.TextFormat.RichText)
             legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             legend.setAutoFillBackground(True)
             self._column.addWidget(strip, 1)
+            strip.show()
             if first is None:
                 first = strip
             else:
