@@ -125,7 +125,7 @@ class Doctor:
             came = self._ask(transport, ANSWER_S)
             what, ready = judged(came), _clear(transport)
             if what is Answered.PROMPT:
-                return self._who(transport, ready)
+                return self._who(transport, ready) if self.line.address is None else self._in_chain(transport, ready)
         finally:
             transport.close()
         if what is Answered.ECHO:
@@ -146,12 +146,36 @@ class Doctor:
         transport = self._open(self.address, self.line)
         try:
             for number in range(ADDRESSES):
-                transport.write(choose(number))
-                if judged(self._listen(transport, TRY_S, prompt=True)) is Answered.PROMPT:
+                if self._calls(transport, number):
                     return self._called(number, self._who(transport, None))
         finally:
             transport.close()
         return None
+
+    def _in_chain(self, transport: Transport, ready: bool | None) -> Diagnosis:
+        """Whether the address answers that will be called; if not, those that do."""
+        wanted = self.line.address
+        self._say(f"Calling address {wanted}")
+        if wanted is not None and self._calls(transport, wanted):
+            return self._who(transport, ready)
+        there = [number for number in range(ADDRESSES) if number != wanted and self._calls(transport, number)]
+        if there:
+            self._calls(transport, there[0])  # the last one that was called may not exist
+        return Diagnosis(
+            Trouble.ADDRESSED,
+            f"No controller with address {wanted} answers at {self.address}; these do: "
+            f"{', '.join(map(str, there)) or 'none'}.",
+            (
+                "Choose one of these where you connect.",
+                "Or look at address and power of the missing one.",
+            ),
+            self.line.baud,
+        )
+
+    def _calls(self, transport: Transport, number: int) -> bool:
+        """Calls an address; whether somebody prompts."""
+        transport.write(choose(number))
+        return judged(self._listen(transport, TRY_S, prompt=True)) is Answered.PROMPT
 
     def _called(self, number: int, found: Diagnosis) -> Diagnosis:
         return Diagnosis(

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -86,7 +87,8 @@ def examined(
     diagnosis = Doctor(machine.address, line, Job(), open_=opened).examine()
     print(diagnosis.words)
     called = re.sub(rb"%[0-7]\r", b"", bytes(sent))  # only where nothing answered at all
-    assert called == bytes(sent) or diagnosis.trouble in (Trouble.SILENT, Trouble.HELD, Trouble.ADDRESSED)
+    silent = diagnosis.trouble in (Trouble.SILENT, Trouble.HELD, Trouble.ADDRESSED)
+    assert called == bytes(sent) or silent or line.address is not None
     assert called.replace(b"\x12\x16", b"").strip(b"\r") == b""  # nothing but these ever leaves
     return diagnosis, bytes(sent)
 
@@ -119,6 +121,19 @@ def test_one_that_was_silenced_by_calling_another_address(machine: SimulatorProc
     assert found.baud == 19200 and found.model == model("ssc2")
     found, _ = examined(machine)  # it listens again
     assert found.fine
+
+
+def test_the_addresses_of_a_chain() -> None:
+    """The one that is asked for answers, or those that do are named; afterwards one of them listens."""
+    with SimulatorProcess("ssc1", pty=True, baud=19200, chain=3) as chain:
+        chain.state()
+        found, sent = examined(chain, replace(LINE, address=2))
+        assert found.fine and b"%2\r" in sent
+        found, _ = examined(chain, replace(LINE, address=5))
+        assert found.trouble is Trouble.ADDRESSED and not found.fine
+        assert found.sentence == f"No controller with address 5 answers at {chain.address}; these do: 0, 1, 2."
+        found, _ = examined(chain)
+        assert found.fine
 
 
 def test_its_own_echo(machine: SimulatorProcess) -> None:
