@@ -165,10 +165,7 @@ class Doctor:
             Trouble.ADDRESSED,
             f"No controller with address {wanted} answers at {self.address}; these do: "
             f"{', '.join(map(str, there)) or 'none'}.",
-            (
-                "Choose one of these where you connect.",
-                "Or look at address and power of the missing one.",
-            ),
+            ("Choose one of these where you connect.", "Or look at address and power of the missing one."),
             self.line.baud,
         )
 
