@@ -186,7 +186,7 @@ class EventsPanel(Panel):
         self.kind.setAccessibleName("Sort of event")
         self.kind.addItem(ALL, None)
         for what in What:
-            self.kind.addItem(str(what).capitalize(), what)
+            self.kind.addItem(f"{what[:1].upper()}{what[1:]}", what)  # “Operator STOP” stays so
         self.more.setToolTip("The help page of the selected event (F1)")
         self.bundle.setToolTip(
             "Events, traffic, program, setup, back-up, versions and a picture of the window in one file"
