@@ -27,9 +27,10 @@ from device.quiet import ready
 from device.tasks import LinkError, Steps, Wait
 from device.tuning.automatic import Chosen, Search, Seen, search, vibrates
 from device.tuning.excite import Excitation, NotIdentified, excitation, held, refused
+from device.tuning.feed import Sweep
 from device.tuning.guards import Cancelled, Fault, Guard, not_stopped, watch
 from device.tuning.loop import Gains, period
-from device.tuning.metrics import Metrics, Response, measure
+from device.tuning.metrics import Metrics, Response, measure, measured_words
 from device.tuning.recording import Recording
 from device.wire import Kind
 
@@ -42,6 +43,7 @@ ALL = {**FIELDS, "IL": "integrator_limit", "TL": "torque_limit", "OF": "offset"}
 LARGEST_STEP = 20_000  # counts: ER ends at 32 767, and half as much again must be left
 TRIAL_VALUES = 120  # of a channel, in automatic tuning
 EXCITED_VALUES = 500
+MOVE_VALUES = 200
 SETTLE_S = 0.15  # at rest with the new gains, before the step
 BEFORE = 6  # elements drawn before the step; the axis stands in them
 RECORDED_S = 5.0  # beyond the expected end of a recording
@@ -167,6 +169,22 @@ class Bench:
         found = None if isinstance(metrics, str) else metrics
         words = metrics if isinstance(metrics, str) else measured_words(metrics, swings)
         return Measured(self.axis, counts, gains, response, found, swings, words, capture)
+
+    def move(self, sweep: Sweep, gains: Gains) -> Steps[Measured]:
+        """A profiled move with these gains: its following error, and what the motor gave."""
+        gains = self._with_limits(gains)
+        self._check()
+        pace = {"SP": sweep.speed * ONE, "AC": sweep.acceleration * ONE, "DC": sweep.acceleration * ONE, "IT": ONE}
+        yield from assign(self.c, self.axis, {**registers(gains), **pace})
+        yield Wait(SETTLE_S)
+        yield from self._stands(gains.kp)
+        yield from proved(self.c.nonces, f"PR{self.axis}={sweep.counts}", LINE_S, REFUSAL_S)
+        capture = yield from self._captured(self._plan(sweep.seconds, MOVE_VALUES, f"BG {self.axis}"))
+        volts, error = (capture.of(Channel(name, self.axis)) for name in ("torque", "error"))
+        commanded = sweep.commanded(capture.interval_s, len(error))
+        response = Response(capture.interval_s, commanded, commanded - error, volts)
+        words = f"Largest following error {np.abs(error).max():.3g} counts."
+        return Measured(self.axis, sweep.counts, gains, response, None, False, words, capture)
 
     def automatic(self, wish: Wish, tell: Told) -> Steps[Found]:
         """To and fro, with what `search` wants tried next."""
@@ -370,16 +388,3 @@ class Bench:
             position=capture.of(Channel("position", self.axis)) if several > 2 else None,
             steps=tuple(jump.counts for jump in wanted.steps),
         )
-
-
-def measured_words(metrics: Metrics, swings: bool) -> str:
-    """The response in one sentence."""
-    if swings:
-        return "The axis vibrates with these gains: take less KP or KI, or more KD."
-    if metrics.settling_time is None:
-        return "The response did not settle within the record."
-    saturated = f" The torque was at its limit for {metrics.saturated:.0%} of it." if metrics.saturated > 0.01 else ""
-    return (
-        f"Settled within {metrics.settling_time * 1000:.0f} ms, overshoot {metrics.overshoot:.0%}, "
-        f"{metrics.steady_error:.3g} counts of error left.{saturated}"
-    )

@@ -15,7 +15,7 @@ from device.tuning.metrics import Metrics, Response
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-TITLES = {"manual": "Manual", "automatic": "Automatic", "model": "Model-based"}
+TITLES = {"manual": "Manual", "automatic": "Automatic", "model": "Model-based", "move": "Move"}
 TUNED = ("kp", "ki", "kd", "fv", "fa")
 PLACES = 4  # decimals of a kept volt
 AXES = ("X", "Y", "Z", "W")

@@ -77,3 +77,16 @@ def measure(response: Response, torque_limit: float) -> Metrics | str:
         peak_error=float(numpy.abs(error).max()),
         saturated=float((numpy.abs(response.volts[begin:]) >= torque_limit - AT_LIMIT).mean()),
     )
+
+
+def measured_words(metrics: Metrics, swings: bool) -> str:
+    """The response in one sentence."""
+    if swings:
+        return "The axis vibrates with these gains: take less KP or KI, or more KD."
+    if metrics.settling_time is None:
+        return "The response did not settle within the record."
+    saturated = f" The torque was at its limit for {metrics.saturated:.0%} of it." if metrics.saturated > 0.01 else ""
+    return (
+        f"Settled within {metrics.settling_time * 1000:.0f} ms, overshoot {metrics.overshoot:.0%}, "
+        f"{metrics.steady_error:.3g} counts of error left.{saturated}"
+    )

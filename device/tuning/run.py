@@ -20,6 +20,7 @@ from device.tasks import NotAllowed, Priority, Steps
 from device.tuning.automatic import VELOCITY
 from device.tuning.bench import ALL, Excited, Found, Measured, Told, Wish, bench, gains_of, registers
 from device.tuning.entry import gains_words
+from device.tuning.feed import Sweep
 from device.tuning.guards import guarded
 from device.tuning.loop import Gains, period
 
@@ -88,6 +89,21 @@ def run_excitation(c: Controller, wish: Wish, folder: Path, now: datetime) -> Jo
     def body(former: Former) -> Steps[Excited]:
         rig = yield from bench(c, former, wish, job)
         return (yield from rig.excite(wish.gains))
+
+    job.future = _begin(c, wish, folder, now, body)
+    return job
+
+
+def run_moves(
+    c: Controller, wish: Wish, sweep: Sweep, other: Gains, folder: Path, now: datetime
+) -> Job[tuple[Measured, Measured]]:
+    """A profiled move forth with the gains of the wish and back with other ones, to be compared."""
+    job: Job[tuple[Measured, Measured]] = Job()
+
+    def body(former: Former) -> Steps[tuple[Measured, Measured]]:
+        rig = yield from bench(c, former, wish, job)
+        first = yield from rig.move(sweep, wish.gains)
+        return first, (yield from rig.move(dc.replace(sweep, counts=-sweep.counts), other))
 
     job.future = _begin(c, wish, folder, now, body)
     return job
