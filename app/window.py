@@ -115,14 +115,18 @@ class Window(QMainWindow):
 
     def arrange(self, panels: tuple[str, ...], front: tuple[str, ...], program: bool = True) -> None:
         """A ready layout: every dock back in its place, those of the layout open, those named in front."""
+        if not program:
+            self.centralWidget().hide()
         for dock in self.docks.values():
             if dock.isFloating():
                 dock.setFloating(False)
         for docks in self._areas.values():
             for before, after in pairwise(docks):
                 self.tabifyDockWidget(before, after)
-        for title, dock in self.docks.items():
-            dock.setVisible(title in panels)
+        for dock in (each for title, each in self.docks.items() if title not in panels):
+            dock.hide()  # first, so that a wide one does not make the window wider beside those that come
+        for dock in (each for title, each in self.docks.items() if title in panels):
+            dock.show()
         for title in front:
             if title in self.docks:  # some are made later
                 self.docks[title].raise_()
