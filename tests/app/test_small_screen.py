@@ -22,6 +22,7 @@ def small(stage: Stage) -> Stage:
     window.resize(WIDE, HIGH)
     window.show()
     stage.connect("simulator", stage.studio.model())
+    assert stage.studio.at_machine  # all of its panels are made
     stage.studio.run.download()
     stage.until(lambda: bool(stage.studio.window.status.progress.words.text()))
     return stage
@@ -33,6 +34,19 @@ def test_neither_words_nor_a_panel_make_the_window_wider(small: Stage) -> None:
         small.studio.desk.bring(title)
         small.go(2)
         assert (window.width(), window.height()) == (WIDE, HIGH), title
+
+
+def test_another_layout_does_not_make_the_window_wider(stage: Stage) -> None:
+    window = stage.studio.window
+    window.resize(1280, 800)
+    window.show()
+    stage.connect("simulator", stage.studio.model())
+    stage.studio.actions["layout_tune"].trigger()
+    stage.go(5)
+    for layout in ("program", "tune", "run"):
+        stage.studio.actions[f"layout_{layout}"].trigger()
+        stage.go(3)
+        assert window.width() == 1280, layout
 
 
 def test_buttons_of_the_toolbars_show_all_of_their_words_or_none(small: Stage) -> None:
