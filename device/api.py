@@ -43,8 +43,8 @@ if TYPE_CHECKING:
     from codegen.setup import Setup
 
 __all__ = [
-    "Badge", "Controller", "DownloadFailed", "Downloaded", "Ended", "Event", "EventList", "Identity", "Job", "Kind",
-    "LineSettings", "LinkError", "LinkLost", "NeedsConfirmation", "NotAllowed", "Notice", "NoticeKind",
+    "ONLY_WATCHED", "Badge", "Controller", "DownloadFailed", "Downloaded", "Ended", "Event", "EventList", "Identity",
+    "Job", "Kind", "LineSettings", "LinkError", "LinkLost", "NeedsConfirmation", "NotAllowed", "Notice", "NoticeKind",
     "OwnSimulator", "Places", "Plan", "Prompt", "Ran", "Refused", "Reply", "Routine", "Row", "State", "StopState",
     "Stopped", "Traffic", "What", "jog",
 ]  # fmt: skip

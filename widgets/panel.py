@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QLabel, QWidget
 
-from device.api import Kind, State
+from device.api import ONLY_WATCHED, Kind, State
 from widgets.parts.pieces import Pieces
 
 if TYPE_CHECKING:
@@ -49,6 +49,8 @@ class Panel(QWidget):
         controller = self.controller
         if controller is None or controller.kind is Kind.OFFLINE:
             return offline
+        if controller.kind is Kind.REPLAY:
+            return ONLY_WATCHED
         if controller.state is not State.READY:
             return NOT_READY
         return "" if controller.control else watched

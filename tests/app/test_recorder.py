@@ -113,6 +113,9 @@ def test_nothing_is_sent_and_there_is_nothing_to_stop(stage: Stage) -> None:
     wait(stage, lambda: "recording" in studio.terminal.log.toPlainText())
     for title in studio.window.docks if is_long() else ("Display", "Jog", "Variables"):
         press_everything(stage, title)
+    for title in ("Jog", "Tuner", "Operator terminal"):  # Control can not be taken: nobody is told to
+        reason = studio.window.docks[title].content.reason
+        assert reason == "This is a recording: it can only be watched, nothing is sent."
     QTest.keyClick(studio.window, Qt.Key.Key_F12)
     wait(stage, lambda: any("There is nothing to stop" in text for text in studio.messages.texts()))
     assert len(rig.loopback.written) == closed and stage.controller.stop_state is StopState.NO_LINK

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from device.api import Kind
+from device.api import ONLY_WATCHED, Kind
 from device.terminal1500 import HAND_HELD, PANEL, Key, Terminal
 from widgets.operator.keypad import Keypad
 from widgets.operator.screen import Screen
@@ -136,6 +136,8 @@ class OperatorPanel(Panel):
         controller = self.controller
         if controller is None or controller.kind is Kind.OFFLINE:
             return NOWHERE
+        if controller.kind is Kind.REPLAY:
+            return ONLY_WATCHED
         if not controller.control:
             return WATCHED
         return "" if self._open else "Connect the line to port 2 first."
