@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QBuffer, QIODevice, QObject, Signal, qVersion
+from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from app.about import version
@@ -111,11 +112,12 @@ class Happened(QObject):
         from app.backup_before import FOLDER, folder_of
 
         parts, folder = self.parts(), folder_of(self._data / FOLDER, self._connection.controller)
-        self._writing = threading.Thread(target=self._write, args=(path, parts, folder), name="service bundle")
+        picture = self._window.grab().toImage()
+        self._writing = threading.Thread(target=self._write, args=(path, parts, picture, folder), name="service bundle")
         self._writing.start()
 
     def parts(self) -> dict[str, bytes]:
-        """Every part of the bundle by its name, except the back-up."""
+        """Every part of the bundle that is text, by its name."""
         controller, document = self._connection.controller, self._session.document
         traffic = "\n".join(
             f"{line.number} {line.direction} {line.source} {line.text}" for line in controller.traffic()
@@ -131,7 +133,7 @@ class Happened(QObject):
         }
         if controller.listing is not None:
             found["controller.dmc"] = controller.listing + "\n"
-        return {**{name: text.encode() for name, text in found.items()}, "window.png": _picture(self._window)}
+        return {name: text.encode() for name, text in found.items()}
 
     def _versions(self, controller: Controller) -> str:
         identity = controller.identity
@@ -147,13 +149,13 @@ class Happened(QObject):
         }
         return "".join(f"{name}: {text}\n" for name, text in facts.items())
 
-    def _write(self, path: Path, parts: Mapping[str, bytes], folder: Path | None) -> None:
+    def _write(self, path: Path, parts: Mapping[str, bytes], picture: QImage, folder: Path | None) -> None:
         from device.backup_kept import kept
 
         newest = next(iter(kept(folder)), None) if folder is not None else None
         backup = newest.path if newest is not None else None
         try:
-            path.write_bytes(zipped({**parts, IN_BUNDLE: self.recording()}, backup))
+            path.write_bytes(zipped({**parts, "window.png": _png(picture), IN_BUNDLE: self.recording()}, backup))
             self._result = f"Service bundle saved: {path}"
         except OSError as reason:
             self._result = f"The service bundle was not saved: {reason.strerror or reason} ({path})"
@@ -172,8 +174,8 @@ def zipped(parts: Mapping[str, bytes], backup: Path | None) -> bytes:
     return whole.getvalue()
 
 
-def _picture(window: QWidget) -> bytes:
+def _png(picture: QImage) -> bytes:
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    window.grab().save(buffer, "PNG")  # type: ignore[call-overload]
+    picture.save(buffer, "PNG")  # type: ignore[call-overload]
     return bytes(buffer.data().data())

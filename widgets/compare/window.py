@@ -50,14 +50,15 @@ class CompareWindow(QDialog):
         self.summary.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.doing = QLabel()
         self.doing.setProperty("role", "quiet")
+        self.tabs = QTabWidget(self)
+        self.tabs.setStyleSheet("QTableWidget::item { padding: 6px 8px; }")
         self.tables = {name: _table(name) for name in TABS}
-        self.code = QPlainTextEdit()
+        self.code = QPlainTextEdit(self)
         self.code.setReadOnly(True)
         self.code.setTabChangesFocus(True)
         self.code.setAccessibleName("The lines of the chosen difference")
         self.code.setFont(look().code_font())
         self.code.setMaximumHeight(148)
-        self.tabs = QTabWidget()
         for name, table in self.tables.items():
             self.tabs.addTab(table, name)
         self.read, self.go, self.cancel = QPushButton("Read the controller"), QPushButton("Show step"), _plain("Cancel")
@@ -158,7 +159,6 @@ def _table(name: str) -> QTableWidget:
     header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
     header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
     header.setHighlightSections(False)
-    table.setStyleSheet("QTableWidget::item { padding: 6px 8px; }")
     return table
 
 
