@@ -18,10 +18,12 @@ from app.run import Ask, Run
 from app.session import Session
 from app.tick import Tick, failure_of
 from app.tuner_book import Book
+from app.tuner_feed import Feeding
+from app.tuner_gains import IntoController
 from app.tuner_memory import Memory
 from app.tuner_model import Modelling
 from codegen.fields import Dimension
-from device.api import Controller, Kind, State
+from device.api import Kind, State
 from widgets.display.readings import unit_of
 from widgets.parts.units import shown
 from widgets.tuner.asked import UNSURE, VELOCITY, Asked, Judged
@@ -30,6 +32,7 @@ from widgets.tuner.panel import AUTOMATIC, MODEL, TunerPanel
 if TYPE_CHECKING:
     from device.download import Job
     from device.tuning.bench import Excited, Found, Measured, Wish
+    from device.tuning.feed import Sweep
     from device.tuning.loop import Gains
     from device.tuning.run import Present
     from widgets.tuner.plots import Curve
@@ -69,12 +72,12 @@ class Tuner(QObject):
         self._reading = False
         self._since = -math.inf  # what was read before this moment is from before a run
         self.model = Modelling(tick, panel, self._excite, self._show_running, self._ended, memory, self)
+        self.feeding = Feeding(panel, self.model, careful, self._moves, self._begin, self._keep, self)
         panel.judge = self.judge
         panel.axis_chosen.connect(self._axis_chosen)
         panel.start_wanted.connect(self._start)
         panel.cancel_wanted.connect(self.cancel)
-        panel.use_wanted.connect(self._use)
-        panel.burn_wanted.connect(self._burn)
+        self.into = IntoController(connection, tick, panel, ask, careful, self.read_present, self)
         panel.zero_wanted.connect(self._zero)
         panel.predicted_wanted.connect(self._run_predicted)
         panel.page_opened.connect(lambda _page: self._opened())
@@ -194,6 +197,11 @@ class Tuner(QObject):
         job = run_excitation(self._connection.controller, self.wish(asked), self.folder, self._now())
         self._begin(job, f"Exciting {asked.axis}", then)
 
+    def _moves(self, asked: Asked, way: Sweep, other: Gains) -> Job[Any]:
+        from device.tuning.run import run_moves
+
+        return run_moves(self._connection.controller, self.wish(asked), way, other, self.folder, self._now())
+
     def _run_predicted(self, asked: Asked) -> None:
         """The step with the proposed gains, measured and laid over its prediction."""
         proposal = self.model.proposal
@@ -228,54 +236,6 @@ class Tuner(QObject):
         """The graph is empty; the next step is drawn from 0."""
         self._drawn.clear()
         self._panel.show_curves([], None, 10.0)
-
-    # ---- gains in the controller
-
-    def _use(self, axis: str, gains: Gains) -> None:
-        self._careful("Set gains", partial(self._set, axis, gains))
-
-    def _set(self, axis: str, gains: Gains) -> None:
-        from device.tuning.run import use_gains
-
-        def done(future: Future[Any]) -> None:
-            failure = failure_of(future)
-            self._panel.show_result(failure or future.result(), good=not failure)
-            self.read_present()
-
-        self._tick.when_done(use_gains(self._connection.controller, axis, gains), done)
-
-    def _burn(self, axis: str, gains: Gains) -> None:
-        from device.setup_transfer import burn_words, read_setup
-        from device.tuning.entry import gains_words
-
-        controller = self._connection.controller
-
-        def told(future: Future[Any]) -> None:
-            failure = failure_of(future)
-            if failure or controller.model is None or controller is not self._connection.controller:
-                self._panel.show_result(f"Nothing was burned. {failure}", good=False)
-                return
-            words = f"Axis {axis} gets {gains_words(gains)}. {burn_words(future.result(), controller.model, 0)}"
-            answers = [("Write to EEPROM", lambda: self._burn_now(controller, axis, gains))]
-            self._ask("Save the PID gains?", words, answers, "warning")
-
-        self._careful("Burn", lambda: self._tick.when_done(read_setup(controller), told))
-
-    def _burn_now(self, controller: Controller, axis: str, gains: Gains) -> None:
-        from device.tuning.run import burn
-
-        def done(future: Future[Any]) -> None:
-            failure = failure_of(future)
-            reply = None if failure else future.result()
-            good = reply is not None and reply.accepted
-            words = "The gains are in the EEPROM: they are there after the next power-up." if good else (
-                f"Nothing was burned. {failure or reply.reason}"
-            )  # fmt: skip
-            self._panel.show_result(words, good=good)
-            self.read_present()
-
-        if controller is self._connection.controller:
-            self._tick.when_done(burn(controller, axis, gains), done)
 
     # ---- around a run
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from app.tuner_maths import Proposal
     from device.tuning.bench import Excited
     from device.tuning.excite import NotIdentified
+    from device.tuning.feed import Feeds
     from device.tuning.identify import Estimate
     from widgets.tuner.plots import Curve
 
@@ -67,6 +68,7 @@ class Modelling(QObject):
         self._to_draw = False
         if self._panel.bode_plot is not None:
             self._panel.model.show_usable(False)
+            self._panel.model.show_feeds("")
             self._panel.bode_plot.show_bode(None)
 
     def look(self) -> None:
@@ -187,9 +189,24 @@ class Modelling(QObject):
         bode_plot.show_bode(proposal.bode)
         model.show_usable(True, "" if proposal.gains is not None else UNREACHED)
         model.show_design(proposal.gains, proposal.margins, proposal.words)
+        model.show_feeds(self.feeds.words if self.feeds is not None else "")
         if proposal.gains is not None:
             self._panel.manual.gains.show_gains(proposal.gains)
             self._to_draw = True
+
+    @property
+    def period(self) -> float:
+        """Of a sample, in s, as the axis was excited with."""
+        return self._excited.period if self._excited is not None else 0.0
+
+    @property
+    def feeds(self) -> Feeds | None:
+        """FV and FA for the axis that was identified."""
+        if self.estimate is None or not self.period:
+            return None
+        from device.tuning.feed import feeds
+
+        return feeds(self.estimate.plant, self.period)
 
     @property
     def predicted(self) -> tuple[Curve, ...]:

@@ -277,7 +277,23 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
         slowest[-2] * 1000,
         "ms of CPU",
     )
+    _feed_forward(stage, panel)
     _beyond_reach(stage, panel)
+
+
+def _feed_forward(stage: Stage, panel: TunerPanel) -> None:
+    """Two moves, without FV and FA and with them; what is better stands in the fields."""
+    gain = 0.1 / 2e-4 * 4000 / (2 * math.pi)  # counts/s² for a volt
+    fa = 1 / (gain * 1.5e-7)  # 1.5e-7 FA volts for a count/s² (spec/commands.md 8)
+    assert f"FA {int(fa)}" in panel.model.feeds.text() or f"FA {fa:.0f}" in panel.model.feeds.text()
+    run(stage, panel, panel.model.compare)
+    assert (
+        "Largest following error of the move" in panel.result.text() and "They are in the fields" in panel.result.text()
+    )
+    assert float(panel.manual.gains.fields["FA"].text()) == pytest.approx(fa, rel=0.03)
+    entries = stage.studio.at_machine.tuning.book.book.entries[-2:]
+    assert [each.method for each in entries] == ["move", "move"] and entries[0].gains.fa == 0
+    assert panel.results.error.isChecked() and held(stage.rig) == GAINS and not stage.rig.moving
 
 
 def _margin_and_keys(stage: Stage, panel: TunerPanel) -> None:

@@ -105,12 +105,14 @@ class ModelPage(QWidget):
 
     target_wanted = Signal(float, float)  # rad/s, degrees
     run_wanted = Signal()
+    moves_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.estimate, self.result, self.margins = _words(IDENTIFY), _words(), _words()
         self.crossover, self.phase = QLineEdit(), QLineEdit()
         self.apply, self.run = QPushButton("Design"), QPushButton("Run this step")
+        self.feeds, self.compare = _words(), QPushButton("Compare moves")
         self.crossover.setAccessibleName("Crossover, Hz")
         self.phase.setAccessibleName("Phase margin, degrees")
         grid = QGridLayout()
@@ -130,7 +132,12 @@ class ModelPage(QWidget):
         column.addLayout(grid)
         column.addWidget(self.margins)
         column.addWidget(self.result)
+        row = QHBoxLayout()
+        row.addWidget(self.compare, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(self.feeds, 1)
+        column.addLayout(row)
         column.addStretch(1)
+        self.compare.clicked.connect(self.moves_wanted)
         self.show_usable(False)
 
     def show_usable(self, designed: bool, reason: str = "") -> None:
@@ -145,6 +152,12 @@ class ModelPage(QWidget):
         why = self._no_gains or reason
         self.run.setEnabled(not why)
         self.run.setToolTip(why or "One step with the proposed gains, drawn over the predicted one")
+        self.compare.setEnabled(not why)
+        self.compare.setToolTip(why or "A move of the step's size without FV and FA, and back with them")
+
+    def show_feeds(self, words: str) -> None:
+        """What FV and FA would be."""
+        set_text(self.feeds, words)
 
     def show_target(self, crossover: float, phase: float) -> None:
         """Where the handles stand."""

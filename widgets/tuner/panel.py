@@ -60,6 +60,7 @@ class TunerPanel(Panel):
     zero_wanted = Signal()
     target_wanted = Signal(float, float)  # rad/s, degrees
     predicted_wanted = Signal(object)  # Asked: the step with the proposed gains
+    moves_wanted = Signal(object)  # Asked: moves without and with the feed-forwards
     page_opened = Signal(int)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -286,6 +287,7 @@ class TunerPanel(Panel):
         model.target_wanted.connect(self.target_wanted)
         self.bode_plot.target_wanted.connect(self.target_wanted)
         model.run_wanted.connect(lambda: self.predicted_wanted.emit(self.asked))
+        model.moves_wanted.connect(lambda: self.moves_wanted.emit(self.asked))
 
     def _arrange(self) -> None:
         left = QWidget()
