@@ -29,6 +29,7 @@ class Book(QObject):
     """One file per machine: by serial number, else by the setup's name."""
 
     said = Signal(str)
+    added = Signal(object)  # an Entry, for the recorder
 
     def __init__(
         self,
@@ -86,6 +87,7 @@ class Book(QObject):
             self.book.add(entry)
         except OSError as failure:
             self.said.emit(f"The run is not in the logbook: {failure.strerror or failure}.")
+        self.added.emit(entry)
         self.refresh()
 
     def note(self, number: int, text: str) -> None:

@@ -16,6 +16,7 @@ from widgets.tuner.panel import TunerPanel
 
 if TYPE_CHECKING:
     from app.compose import Studio
+    from device.tuning.entry import Entry
 
 FOLDER = "tuning"
 
@@ -35,7 +36,15 @@ class TunerPart(QObject):
             folder, self, now,
         )  # fmt: skip
         self.offer = Offer(connection, tick, ask, folder, lambda: self.tuner.job is not None, self)
+        self._recorder = studio.recorder
+        self.book.added.connect(self._record)
         for part in (self.book, self.tuner, self.offer):
             part.said.connect(studio.desk.say)
         tick.each(self.tuner.look)
         tick.each(self.offer.look)
+
+    def _record(self, entry: Entry) -> None:
+        """A run stands in the recording as it stands in the logbook."""
+        from device.tuning.entry import to_data
+
+        self._recorder.note("tuning run", to_data(entry))

@@ -16,10 +16,13 @@ from app.deeds import LISTEN_TICKS
 from device.api import Kind, State, StopState
 from device.recorder_play import DID
 from device.recorder_read import Recording, joined
+from tests.app.test_tuner import tuner
+from tests.device.tuning.test_logbook import RUN
 from tests.long import is_long
 from tests.stage import Stage, make_studio
 from widgets.recorder.panel import EMPTY, RecorderPanel
 
+WHOLE = True  # the panels at the machine are there from the beginning
 LEFT = Qt.MouseButton.LeftButton
 
 
@@ -200,7 +203,8 @@ def test_fields_cells_menus_pages_and_hands_are_noted_too(stage: Stage) -> None:
     stage.go(3)
     body = studio.at_machine.curves.body
     assert body is not None
-    stage.go(LISTEN_TICKS * len(studio.panels))
+    studio.window.docks["Scope"].activateWindow()
+    QTest.qWaitForWindowActive(studio.window.docks["Scope"].window(), 3000)
     body.choices.count.setFocus()
     QTest.keyClick(body.choices.count, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
     QTest.keyClicks(body.choices.count, "140\t")
@@ -216,7 +220,8 @@ def test_fields_cells_menus_pages_and_hands_are_noted_too(stage: Stage) -> None:
     stage.go(3)
     assert table.parts is not None
     table.rows_wanted.emit("insert", [], [])
-    stage.go(LISTEN_TICKS * len(studio.panels))
+    studio.window.activateWindow()
+    QTest.qWaitForWindowActive(studio.window, 3000)
     table.parts.view.setFocus()
     table.parts.view.go_to(0, 5)
     QTest.keyClick(table.parts.view, Qt.Key.Key_Return)
@@ -235,6 +240,15 @@ def test_fields_cells_menus_pages_and_hands_are_noted_too(stage: Stage) -> None:
         assert wanted in found, found
     assert any(each.endswith(" = Captures") for each in found), found
     assert "By hand: axis X" in found and found.index("By hand: let go") > found.index("By hand: axis X")
+
+
+def test_a_tuning_run_stands_in_the_recording(stage: Stage) -> None:
+    tuner(stage)
+    stage.studio.at_machine.tuning.book.add(RUN)
+    stage.studio.recorder.flush()
+    notes = Recording(joined(stage.studio.recorder.files())).notes
+    (run,) = [note.payload for note in notes if note.kind == "tuning run"]
+    assert isinstance(run, dict) and run["gains"]["kp"] == 7.5 and run["actual"] == [0, 60, 99]
 
 
 def test_a_recorder_that_can_not_write_is_said_wherever_one_looks(stage: Stage) -> None:
