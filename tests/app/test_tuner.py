@@ -16,6 +16,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog, QWidget
 from shiboken6 import isValid
 
+from app.settings import Settings
 from codegen.twoletter.fixed import ONE
 from device.capture import Channel
 from device.capture_file import load
@@ -26,7 +27,7 @@ from tests.app.test_controls import controls, describe, name_of, reachable
 from tests.device.tuning.test_dual import MACHINES
 from tests.long import is_long, record
 from tests.rig import Rig
-from tests.stage import Stage
+from tests.stage import Stage, make_studio
 from tests.widgets.scope.test_scope import drag
 from widgets.help.topic import topic_of
 from widgets.parts.question import Question
@@ -356,6 +357,36 @@ def test_a_drive_in_velocity_mode_is_recognised_and_refused(stage: Stage) -> Non
     worked(stage, lambda: not panel.running and "auto tune" in panel.result.text())
     assert "do not perform an auto tune; instead proceed to manual tuning" in panel.result.text()
     assert panel.automatic.trials.count() == 0 and held(stage.rig) == GAINS
+
+
+def test_what_was_chosen_is_there_at_the_next_start_and_gains_are_not(stage: Stage, tmp_path: Path) -> None:
+    panel = tuner(stage, model="ssc2")
+    panel.axes.setCurrentText("Y")
+    click(panel.buttons[AUTOMATIC])
+    stage.until(lambda: panel.box.words.text().startswith("Choose") or "moves by" in panel.box.words.text())
+    typed(panel.box.step, "300")
+    QTest.keyClick(panel.box.step, Qt.Key.Key_Return)
+    panel.box.seconds.setCurrentIndex(2)
+    click(panel.results.error)
+    typed(panel.manual.gains.fields["KP"], "99")
+    kept = Settings(stage.studio.settings.path).get("tuner")
+    assert kept["steps"] == {"Y counts": "300"} and kept["page"] == "Automatic" and "99" not in str(kept)
+    again = make_studio(tmp_path)
+    try:
+        again.studio.window.show()
+        again.connect("simulator", "ssc2")
+        again.studio.actions["tune"].trigger()
+        there = again.studio.at_machine.tuning.panel
+        again.until(lambda: there.axes.count() == 2)
+        again.go()
+        assert there.axis == "Y" and there.page == AUTOMATIC and there.buttons[AUTOMATIC].isChecked()
+        assert there.box.step.text() == "300" and there.box.record_s == 1.0 and there.results.error.isChecked()
+        assert there.manual.gains.fields["KP"].text() == "6"  # what the controller holds
+        assert not there.box.free.isChecked() and there.box.drive.currentText().startswith("Not sure")
+        there.axes.setCurrentText("X")
+        assert there.box.step.text() != "300"
+    finally:
+        again.clear_away()
 
 
 def test_a_dual_loop_is_tuned_from_the_panel_and_not_identified(stage: Stage) -> None:
