@@ -73,5 +73,5 @@ class Header(QWidget):
         line.setMinimumHeight(look().control)
         if width:
             line.setMaximumWidth(width)
-        line.setMinimumWidth(88 if width else 48)
+        line.setMinimumWidth(88 if width else 28)
         return line

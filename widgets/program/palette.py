@@ -18,7 +18,7 @@ MODES = QIcon.Mode
 STRENGTHS = ((MODES.Normal, 255), (MODES.Active, 255), (MODES.Selected, 255), (MODES.Disabled, 90))
 KIND = Qt.ItemDataRole.UserRole
 DOT = 10
-LEAST = 128  # px: names of instructions can be told apart
+LEAST = 100  # px: names of instructions can be told apart
 HINT = "Enter or a double click opens the dialog; or drag an instruction into the program."
 
 
