@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 OWNER = "commissioning"
 LIVE = ("position", "error", "torque", "motor_off", "forward_limit", "reverse_limit", "home")
+PLACES = ("position.", "commanded.", "auxiliary.")  # read together, so that they fit each other
 PAUSE_TICKS = 30  # a second without typing
 NOT_CONNECTED = "Connect a controller or start the simulator first."
 
@@ -240,7 +241,7 @@ class Commissioning(QObject):
     def _watch(self, keys: tuple[str, ...]) -> None:
         if keys != self._watched:
             self._watched = keys
-            self.controller.watch(OWNER, keys)
+            self.controller.watch(OWNER, keys, tuple(key for key in keys if key.startswith(PLACES)))
 
     def _read(self) -> None:
         """What came since the last look, while something is moved by hand."""
@@ -326,7 +327,8 @@ class Commissioning(QObject):
         window.show_machine(axes, self.record.axis, f"{who[:1].upper()}{who[1:]}", sine)
         found = [(step, self.record.of(step.key)) for step in self.steps]
         entries = [Entry(step.title, finding.verdict.value, finding.sentence) for step, finding in found]
-        window.show_steps(entries, self.row, self.step.optional and not self.busy, bool(self.record.findings))
+        may_skip = self.step.optional and not self.busy and not self.record.of(self.step.key).done
+        window.show_steps(entries, self.row, may_skip, bool(self.record.findings))
         live = {name: row.value(f"{name}.{self.record.axis.lower()}") for name in self.live}
         now = Now(
             self.record, self.axis, live, self.reason, self.busy, self.turned, self.switches, self.moved,

@@ -261,7 +261,7 @@ def judge_set(wanted: Mapping[str, str], there: Mapping[str, str]) -> Finding:
     if wrong:
         return Finding(FAILED, f"The controller did not take {', '.join(wrong)}.", ("Set them again.",), facts)
     told = ", ".join(f"{name} {text}" for name, text in wanted.items())
-    return Finding(PASSED, f"Set and read back: {told}.", (), facts)
+    return Finding(PASSED, f"Set and read back: {told}.")
 
 
 # --------------------------------------------------------------------------- moves
@@ -339,6 +339,9 @@ def move_facts(moved: Moved) -> tuple[tuple[str, str], ...]:
         ("Came", f"{moved.end - moved.start} counts"),
         ("Lowest and highest", f"{moved.low - moved.start}, {moved.high - moved.start} counts"),
         ("Stop code", f"{moved.code}, {STOP_TEXTS.get(moved.code, 'unknown')}"),
-        ("Motor command", f"{moved.torque:.2f} V"),
-        *((("Error limit", f"{moved.error} counts"),) if moved.error else ()),
+        *(_of_a_servo(moved) if moved.error else ()),
     )
+
+
+def _of_a_servo(moved: Moved) -> tuple[tuple[str, str], ...]:
+    return ("Motor command", f"{moved.torque:.2f} V"), ("Error limit", f"{moved.error} counts")

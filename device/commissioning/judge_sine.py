@@ -35,7 +35,7 @@ def judge_phases(answer: str, cycle: str) -> Finding:
             f"The magnetic cycle is about {found[1]} counts, not {cycle}: the counts of a turn or the poles are wrong."
         )
         return Finding(FAILED, words, ("Type the right counts of one magnetic cycle (BM).",), facts)
-    return Finding(PASSED, f"The controller says: {'; '.join(lines)}.", (), facts)
+    return Finding(PASSED, f"The controller says: {'; '.join(lines)}.")
 
 
 def judge_halls(moved: Moved, before: int, after: int) -> Finding:

@@ -248,7 +248,8 @@ def steps_for(stepper: bool, sine: bool) -> tuple[Step, ...]:
 def _of_a_stepper(step: Step) -> Step:
     """What is different for it: an encoder is optional (l.601), nothing limits the force."""
     if step.key == "encoder":
-        return dc.replace(step, optional=True, todo=(*step.todo, "A stepper needs none: skip this step without one."))
+        more = "A stepper needs no encoder: skip this step where none is fitted."
+        return dc.replace(step, optional=True, todo=(*step.todo, more))
     if step.key == "limits":
         todo = (
             "Type the forward and the reverse limit of the travel, inside the limit switches.",

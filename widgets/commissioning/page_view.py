@@ -161,13 +161,17 @@ class PageView(QWidget):
             editor = self._make_field(field)
             editor.setAccessibleName(field.label)
             label.setBuddy(editor)
-            grid.addWidget(label, row, 0)
-            grid.addWidget(editor, row, 1)
             unit = _words("quiet", wrap=False)
             unit.setText(field.unit)
-            grid.addWidget(unit, row, 2)
+            beside = QHBoxLayout()
+            beside.setSpacing(12)
+            beside.addWidget(editor)
+            beside.addWidget(unit)
+            beside.addStretch(1)
+            grid.addWidget(label, row, 0)
+            grid.addLayout(beside, row, 1)
             self.fields[field.name] = editor
-        grid.setColumnStretch(3, 1)
+        grid.setColumnStretch(1, 1)
         return grid
 
     def _make_field(self, field: Entered) -> QLineEdit | QComboBox:

@@ -104,4 +104,4 @@ def paint_mark(painter: QPainter, circle: QRectF, mark: str, number: int) -> Non
     else:
         painter.setPen(look().colour("quiet"))
         painter.setFont(look().small_font())
-        painter.drawText(circle, Qt.AlignmentFlag.AlignCenter, str(number or "?"))  # a result that waits for an answer
+        painter.drawText(circle, Qt.AlignmentFlag.AlignCenter, str(number or "…"))  # not at its end
