@@ -30,7 +30,6 @@ SHOWN = {
     "panel-x-y-view": ("x-y-view", "X-Y view"),
     "panel-jog": ("jog", "Jog"),
     "panel-operator-panel": ("operator-terminal", "Operator terminal"),
-    "panel-variables": ("variables", "Variables"),
     "scope-capture": ("scope", ""),
     "tuner-manual": ("tuner", "Tuner"),
     "commissioning-polarity": ("bring-an-axis-to-life", ""),

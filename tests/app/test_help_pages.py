@@ -64,7 +64,7 @@ def test_every_instruction_command_error_and_key_is_in_the_help() -> None:
 def test_a_picture_is_no_larger_than_it_must_be(path: Path) -> None:
     assert path.stat().st_size < 200_000
     image = QImage(str(path))
-    assert (image.width(), image.height()) == (1280, 800)
+    assert image.width() <= 1280 and image.height() <= 800
 
 
 def test_pictures_of_pages_are_there_and_shown(stage: Stage) -> None:
