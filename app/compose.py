@@ -213,6 +213,7 @@ class Studio(QObject):
             self.which.look,
             self.met.look,
             self.search.look,
+            self.start.echo.look,
             self.stop_key.stay_first,
         ):
             self.tick.each(look)

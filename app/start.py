@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from app.connection import Connection, Opened
+from app.echo_wish import EchoWish
 from app.leaving import Leaving
 from app.search import Candidate, Search
 from app.settings import Settings
@@ -44,6 +45,7 @@ class Start(QObject):
         super().__init__(parent)
         self._connection, self._search, self._settings = connection, search, settings
         self._ports, self._model, self._leaving, self._window = ports, model, leaving, parent
+        self.echo = EchoWish(connection, self.said.emit)
         self.welcome: Welcome | None = None
         self.serial: SerialSetup | None = None
         search.looking.connect(self._looking)
@@ -157,6 +159,7 @@ class Start(QObject):
         }.items():
             self._settings.set(key, value)
         self._search.cancel()
+        self.echo.choose(choice.port, choice.echo)
         self.open_port(choice.port)
         self._done()
 

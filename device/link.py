@@ -67,7 +67,7 @@ class Link:
         self._ready: list[Task[Any]] = []
         self._current: Task[Any] | None = None
         self._holder: Task[Any] | None = None
-        self._out, self._echo = Outgoing(line, clock), Echo()
+        self._out, self.echo = Outgoing(line, clock), Echo()
         self._deadline = 0.0
         self._last_byte = 0.0
         self._told_rest = ""
@@ -210,7 +210,7 @@ class Link:
     def _receive(self) -> None:
         assert self.transport is not None
         busy = self._out or self._current is not None
-        data = self._echo.taken_from(self.transport.read(0.002 if busy else 0.005))
+        data = self.echo.taken_from(self.transport.read(0.002 if busy else 0.005))
         now = self._clock()
         if data:
             self._last_byte, self._noise = now, True
@@ -259,7 +259,7 @@ class Link:
         self._silences = 0 if answer.kind is not Kind.SILENT else self._silences + 1
         self._noise &= self._silences > 1  # half an answer, cut off by a pulled cable, is none
         if isinstance(task.step.expect, Frame | Proof):
-            self._echo.on = self.wire.left.echoed
+            self.echo.on = self.wire.left.echoed
         self.sure = answer.kind in (Kind.VALUES, Kind.ACCEPTED, Kind.REFUSED) and answer.certain
         self._current = None
         self._advance(task, answer)
@@ -316,7 +316,7 @@ class Link:
             return
         self._current = task
         self._holder = task if step.hold else None
-        self._echo.sent(step.data, transfer=step.hold and not isinstance(step.expect, Frame | Proof))
+        self.echo.sent(step.data, transfer=step.hold and not isinstance(step.expect, Frame | Proof))
         self.wire.expect(step.expect, step.data.rstrip(b"\r").decode("ascii", "replace"))
         self._out.put(step.data)
         self._deadline = self._clock() + step.timeout_s

@@ -155,6 +155,32 @@ def test_the_way_from_the_search_to_a_line_that_was_set_up(stage: Stage, hands: 
     assert not welcome.isVisible()
 
 
+@pytest.mark.parametrize("on", [True, False])
+def test_the_echo_box_sets_the_controller_once_control_is_taken(stage: Stage, on: bool) -> None:
+    """EO 1 sends back what is received (dmc-1412-1414.txt l.1348); Watch sends nothing that sets."""
+    use(stage, KNOWN)
+    stage.studio.start.show_serial()
+    serial = stage.studio.start.serial
+    assert serial is not None
+    serial.port.setCurrentText(KNOWN.device)
+    serial.echo.setChecked(on)
+    serial.connect_button.click()
+    stage.until(lambda: stage.controller.state is State.READY)
+    settings = stage.rig.simulation.unit.state.settings
+    if not on:
+        settings["EO"] = 65536  # burned so
+        stage.until(lambda: stage.controller.link.echo.on)
+        stage.studio.start.echo.choose(KNOWN.device, on)
+    stage.go(10)
+    assert (settings["EO"] != 0) is not on
+    stage.controller.take_control()
+    stage.until(lambda: (settings["EO"] != 0) is on)
+    stage.until(lambda: stage.controller.link.echo.on is on)
+    told = stage.studio.messages.texts()
+    assert any("when you take Control" in text for text in told)
+    assert any(f"Echo switched {'on' if on else 'off'}" in text for text in told)
+
+
 @HANDS
 def test_exit_leaves_from_the_welcome_window(stage: Stage, hands: type[Hands]) -> None:
     use(stage)

@@ -63,7 +63,7 @@ class SerialSetup(QDialog):
         self.baud, self.bits, self.stop_bits = QComboBox(), QComboBox(), QComboBox()
         self.parity, self.handshake = QComboBox(), QComboBox()
         self.echo = QCheckBox("Controller echoes what it receives")
-        self.echo.setToolTip("As in the manual. Either way is understood: an echo is recognised when it comes (EO).")
+        self.echo.setToolTip("Told to the controller (EO) when you take Control; either way is understood.")
         self.switches, self.words = DipSwitches(), QLabel()
         self.connect_button, self.again, self.cancel = (
             QPushButton("Connect"),
