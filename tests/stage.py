@@ -24,6 +24,7 @@ from device.recorder import Recorder
 from device.transport import Transport
 from device.transport.loopback import Loopback
 from tests.rig import Rig
+from widgets.parts.pieces import Pieces
 
 TICK_S = 0.033
 ASKS = 12  # the line of the question
@@ -51,6 +52,22 @@ class PortTwo(Loopback):
     def write(self, data: bytes) -> int:
         self.simulation.receive(2, data)
         return len(data)
+
+
+class WhenWanted(Pieces):
+    """Panels at the machine as nobody has wanted them yet: no tick makes them, whoever asks for one does."""
+
+    def __init__(self, pieces: Pieces) -> None:
+        self._pieces = pieces
+        self.done = pieces.done
+
+    def step(self) -> bool:
+        return self.done
+
+    def finish(self) -> None:
+        if not self.done:
+            self._pieces.finish()
+            self.done = True
 
 
 class Clock:
@@ -117,7 +134,8 @@ class Stage:
         for _ in range(ticks):
             self.clock.pass_by(TICK_S)
             self.studio.tick.once()
-            self.studio.late.making.finish()  # as after the first half second
+            if not isinstance(self.studio.late.making, WhenWanted):
+                self.studio.late.making.finish()  # as after the first half second
             for panel in self.studio.panels:
                 if panel.in_sight:
                     panel.making.finish()

@@ -15,6 +15,7 @@ from tests.rig import Rig
 from tests.stage import Stage
 from widgets.backup.window import BackupWindow
 
+WHOLE = True  # the panels at the machine are there from the beginning
 OLD = "#A\nLEN=7\nEN"
 
 

@@ -16,6 +16,8 @@ from tests.rig import Rig
 from tests.stage import Stage
 from widgets.compare.window import CompareWindow
 
+WHOLE = True  # the panels at the machine are there from the beginning
+
 
 def badge(stage: Stage) -> str:
     stage.go()

@@ -16,6 +16,7 @@ from tests.stage import Stage
 from widgets.backup.handover import HandoverPage
 from widgets.program.printing import PrintPreview
 
+WHOLE = True  # the panels at the machine are there from the beginning
 SHIFT_CTRL = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 

@@ -12,6 +12,8 @@ from widgets.parts.short_label import ShortLabel
 from widgets.parts.wrapping import WrappingRow
 
 WIDE, HIGH = 1024, 700
+
+WHOLE = True  # the panels at the machine are there from the beginning
 ALONE = Qt.ToolButtonStyle.ToolButtonIconOnly
 
 
