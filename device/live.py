@@ -51,6 +51,7 @@ ROWS: tuple[Live, ...] = (
     Live("outputs", "Outputs", "bits", "_OP", 5, per_axis=False),
     Live("status", "Status byte", "bits", "_TB", 3, per_axis=False),
     Live("time", "Controller clock", "time", "TIME", 10, per_axis=False),
+    Live("period", "Sample period (TM)", "time", "_TM", 5, per_axis=False, slow=True),
     Live("error_code", "Error code", "code", "_TC", 3, per_axis=False, slow=True),
     Live("thread0", "Line of thread 0", "line", "_XQ0", 4, per_axis=False, quick=True, slow=True),
     *(Live(f"thread{n}", f"Line of thread {n}", "line", f"_XQ{n}", 4, per_axis=False) for n in range(1, 4)),

@@ -108,7 +108,7 @@ class DisplayPanel(Panel):
     def watches(self) -> tuple[str, ...]:
         axes = tuple(f"{name}.{letter.lower()}" for letter in self._letters for name in AXIS_VALUES)
         threads = (f"thread{number}" for number in range(self._threads))
-        return (*axes, "inputs", "outputs", "error_code", *threads, *self._in_sight())
+        return (*axes, "inputs", "outputs", "period", "error_code", *threads, *self._in_sight())
 
     def _in_sight(self) -> Iterator[str]:
         """Voltages cost time of the line only while they can be seen: the others would come later by it."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 # bits of TS (spec/tables.json, TS_bits)
 MOVING, ERROR, MOTOR_OFF, FORWARD_FREE, REVERSE_FREE, HOME, NOT_ARMED = 128, 64, 32, 8, 4, 2, 1
+USUAL_TM = 1000.0  # µs; the sample period at which a controller tells speeds in counts a second
 # stop codes that are worth a word of their own (spec/tables.json, stop_codes)
 STOP_WORDS = {6: "abort input", 8: "off on error", 99: "not in position"}
 
@@ -119,7 +120,7 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
         unit=unit,
         commanded=shown(row.value(f"commanded.{low}"), axis),
         error=NOTHING if not math.isfinite(error) else f"{shown(error, axis)} {unit}",
-        speed=_speed(row.value(f"velocity.{low}"), axis, unit),
+        speed=_speed(row.value(f"velocity.{low}"), axis, unit, row.value("period")),
         moving=known.moving,
         motor_on=known.motor_on,
         fault="" if switches.stale else fault_of(switches, row.value(f"stop_code.{low}")),
@@ -162,10 +163,11 @@ def bit(value: float, number: int) -> bool | None:
     return None if not math.isfinite(value) else bool(int(value) >> (number - 1) & 1)
 
 
-def _speed(counts_s: float, axis: Axis, unit: str) -> str:
-    if not math.isfinite(counts_s):
+def _speed(counts_s: float, axis: Axis, unit: str, period: float) -> str:
+    """TV is right at TM 1000 only (commands.md, TM); with an external clock (TM -1) no speed is known."""
+    if not math.isfinite(counts_s) or not period > 0:
         return "moving"
-    return f"{shown(counts_s, axis, decimals=2)} {unit}/s"
+    return f"{shown(counts_s * USUAL_TM / period, axis, decimals=2)} {unit}/s"
 
 
 def marks_of(row: Row, letter: str, axis: Axis) -> Marks:

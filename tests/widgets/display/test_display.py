@@ -95,7 +95,7 @@ def test_faults_in_words(byte: int, code: int, words: str) -> None:
 def test_one_axis_in_units_with_speed_and_travel() -> None:
     row = row_of({
         "position.x": 6370, "commanded.x": 6371, "error.x": 1, "velocity.x": 3185, "switches.x": 128 + 8 + 4 + 1,
-        "stop_code.x": 0,
+        "stop_code.x": 0, "period": 1000,
     })  # fmt: skip
     values = axis_shown(row, "X", INCH, 0.0)
     assert values.position == "10.000"
@@ -103,6 +103,12 @@ def test_one_axis_in_units_with_speed_and_travel() -> None:
     assert values.speed == "5.00 in/s"  # 3185 / 637
     assert values.moving
     assert (values.marks.low, values.marks.actual, values.marks.high) == (0, 10, 20)  # in
+
+
+@pytest.mark.parametrize(("period", "speed"), [(500, "10.00 in/s"), (2000, "2.50 in/s"), (-1, "moving")])
+def test_a_speed_is_true_at_any_sample_period(period: int, speed: str) -> None:
+    """TV is calibrated at TM 1000 only (commands.md, TM); an external clock (TM -1) may run at any rate."""
+    assert axis_shown(row_of({"velocity.x": 3185, "period": period}), "X", INCH, 0.0).speed == speed
 
 
 def test_age_of_a_value() -> None:
@@ -197,7 +203,10 @@ def test_everything_is_said_in_words(bench: Bench) -> None:
 def test_an_axis_without_a_scale_is_shown_in_counts_and_says_so(qtbot: QtBot) -> None:
     """Not "-1250 in": nobody has said how many counts make an inch."""
     bare = axis_shown(
-        row_of({"position.x": -1250.0, "velocity.x": 7.0, "error.x": 1.0}), "X", Axis(unit=Unit.INCH), 0.0
+        row_of({"position.x": -1250.0, "velocity.x": 7.0, "error.x": 1.0, "period": 1000.0}),
+        "X",
+        Axis(unit=Unit.INCH),
+        0.0,
     )
     assert (bare.position, bare.unit, bare.speed, bare.error) == ("-1250", "counts", "7.00 counts/s", "1 counts")
 
@@ -206,7 +215,7 @@ def test_a_moving_axis_says_so_with_its_speed(bench: Bench) -> None:
     pace = 19_200 / (bench.rig.controller.line.baud or 19_200)
     bench.rig.type("JG 3184", "BGX")
     bench.rig.run(1.0 * pace)  # every value was read since it runs evenly
-    words = bench.until("▲")
+    words = bench.until("in/s")
     found = re.search(r"X axis: ([-\d.]+) in, ▲ ([-\d.]+) in/s", words)
     assert found is not None
     assert float(found[2]) == pytest.approx(3184 / 637, abs=0.02)
