@@ -94,8 +94,9 @@ class TeachPlay(QObject):
         _, speeds = slow(self._panel.driving, first, setup)
         ramps = {letter: max(speeds[letter] * 4 // 1024 * 1024, 1024) for letter in "XY"}
         actions: tuple[Action, ...] = actions_of(table, setup, approach(counts_of(first, setup), speeds, ramps))
-        make = partial(PlayBack.of, actions, OWNER, step)
-        self.playing, future = self._connection.controller.motion.undertake(make)
+        controller = self._connection.controller
+        make = partial(PlayBack.of, actions, OWNER, step, switches=lambda: controller.io_control)
+        self.playing, future = controller.motion.undertake(make)
         self._panel.show_result("Play-back begins.")
         self._tick.when_done(future, self._played)
 

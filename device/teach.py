@@ -123,6 +123,7 @@ class PlayBack(Going):
     actions: Sequence[Action] = ()
     step: bool = False
     resting: Callable[[], str] = lambda: ""
+    switches: Callable[[], bool] = lambda: True
     row: int = -1
     doing: str = ""
     holds: bool = False  # waits for `go_on`
@@ -143,13 +144,15 @@ class PlayBack(Going):
         step: bool,
         exchange: Exchange,
         endangered: Callable[[str], str],
+        switches: Callable[[], bool] = lambda: True,
     ) -> PlayBack:
-        """A play-back of both axes, for `Motion.undertake`."""
+        """A play-back of both axes, for `Motion.undertake`; `switches`: whether outputs may be switched (I/O control)."""
 
         def resting() -> str:
             return next(filter(None, map(endangered, AXES)), "")
 
-        return cls(Plan("Play-back", AXES, (), {}), owner, exchange, actions=actions, step=step, resting=resting)
+        plan = Plan("Play-back", AXES, (), {})
+        return cls(plan, owner, exchange, actions=actions, step=step, resting=resting, switches=switches)
 
     @property
     def axes(self) -> str:
@@ -220,6 +223,10 @@ class PlayBack(Going):
                 yield from self._await(action.row, action.what)
             case Send():
                 self.doing = f"Row {action.row + 1} switches outputs."
+                if not self.switches():
+                    raise NotAllowed(
+                        f"Play-back ended in row {action.row + 1}: I/O control was switched off meanwhile."
+                    )
                 for line in self.exchange.packed(action.what.commands):
                     yield from self._taken(action.row, line)
             case Stand():

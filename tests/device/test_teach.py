@@ -7,6 +7,7 @@ import math
 from concurrent.futures import Future
 from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import pytest
 
@@ -43,13 +44,13 @@ ROWS = (
 class Playing:
     """A table on its way."""
 
-    def __init__(self, rows: tuple[Row, ...] = ROWS, step: bool = False) -> None:
+    def __init__(self, rows: tuple[Row, ...] = ROWS, step: bool = False, **more: Any) -> None:
         table = Table(("mm", "mm"), rows)
         self.bench = Bench("ssc2").ready()
         self.bench.ask("SH")
         first = next(row for row in rows if row.moves)
         actions = actions_of(table, SETUP, approach(counts_of(first, SETUP), *SLOW))
-        self.play, future = self.bench.controller.motion.undertake(partial(PlayBack.of, actions, "teach", step))
+        self.play, future = self.bench.controller.motion.undertake(partial(PlayBack.of, actions, "teach", step, **more))
         self.future: Future[Played] = future
 
     def until_row(self, row: int) -> Playing:
@@ -134,6 +135,17 @@ def test_everything_that_stops_it_stops_all_of_it(how: str) -> None:
     if how not in ("watch", "cable"):  # what runs next may brake by them
         read = controller.read("_SPX", "_ACX", "_DCY", "_VS", "_VD")
         assert playing.bench.result(read) == (25_000, 256_000, 256_000, 25_000, 256_000)
+
+
+def test_outputs_are_switched_only_while_io_control_is_on() -> None:
+    rows = (place("1", "1"), Row(output="3"), Row(pause="300"), Row(output="4"), place("5", "5"))
+    allowed = [True]
+    playing = Playing(rows, switches=lambda: allowed[0]).until_row(2)
+    allowed[0] = False
+    playing.bench.run_until(playing.future.done)
+    with pytest.raises(NotAllowed, match="row 4: I/O control was switched off meanwhile"):
+        playing.future.result()
+    assert playing.outputs == 0b0100 and playing.places == (1000, 1000)
 
 
 def test_it_is_refused_in_watch_with_a_motor_off_and_while_another_hand_holds() -> None:
