@@ -148,7 +148,7 @@ def test_a_long_array_tells_how_far_it_is_and_another_one_ends_it(stage: Stage) 
     assert panel.words_.text() == f"Reading LONG: {panel.elements.rowCount()} of 500…"
     assert panel.chosen.text() == "LONG, 500 elements"
     panel.table.setCurrentCell(row_of(panel, "POS[ ]"), 0)
-    stage.until(lambda: panel.chosen.text() == "POS, 5 elements", 5.0)
+    stage.until(lambda: panel.chosen.text() == "POS, 5 elements", 10.0)
     stage.until(lambda: not panel.words_.text(), 5.0)
     assert panel.elements.rowCount() == 5
     panel.table.setCurrentCell(row_of(panel, "LONG[ ]"), 0)
