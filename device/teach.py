@@ -146,7 +146,7 @@ class PlayBack(Going):
         endangered: Callable[[str], str],
         switches: Callable[[], bool] = lambda: True,
     ) -> PlayBack:
-        """A play-back of both axes, for `Motion.undertake`; `switches`: whether outputs may be switched (I/O control)."""
+        """A play-back of both axes, for `Motion.undertake`; `switches`: whether outputs may be (I/O control)."""
 
         def resting() -> str:
             return next(filter(None, map(endangered, AXES)), "")
