@@ -111,6 +111,7 @@ def commissioning_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
 
     from codegen.setup import Unit
     from device.api import Kind
+    from device.simulator.plant import Drive
     from tests.widgets.commissioning.person import Person
 
     document = stage.studio.session.document
@@ -142,6 +143,14 @@ def commissioning_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     yield "commissioning-report", person.desk.preview
     person.desk.preview.close()
     person.window.close()
+    before = stage.studio.session.document
+    stepper = Person(stage, "ssc2", Kind.MACHINE, done=3, drive=Drive.STEPPER)
+    stepper.press("stepper")
+    stepper.next()
+    stepper.press("pulses")
+    yield "commissioning-stepper", stepper.window
+    stepper.window.close()
+    stage.studio.session.set_document(before, "A feeder")
     sine = Person(stage, "dmc1412", hall_inputs=5, hall_offset=30.0)
     sine.window.sine.setChecked(True)
     sine.desk.choose(4)
