@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 
 import numpy as np
 import pytest
@@ -48,6 +49,40 @@ def test_reading_never_clears_the_error_code() -> None:
     assert not bench.result(bench.controller.ask("SP 99999999")).accepted
     bench.run(5.0)
     assert bench.ask("TC").strip() == "006"
+
+
+READ = re.compile(
+    r'MG\{\^30\},"[a-z0-9]{2}"(,[_A-Z0-9@\[\]]+\{F\d+\.\d\})+,\{\^31\}'
+)  # a format of its own behind each
+
+
+def test_live_values_are_read_with_a_format_of_their_own_and_nothing_else() -> None:
+    """safety.md, 3: never TP or `?` in the user's PF, never TC."""
+    bench = Bench("ssc4").ready()
+    bench.controller.watch("all", bench.controller.columns)
+    before = len(bench.sent)
+    bench.run(5.0)
+    lines = bytes(bench.sent[before:]).decode("ascii").split("\r")[1:-1]
+    assert len(lines) > 30
+    assert [line for line in lines if READ.fullmatch(line) is None] == []
+
+
+def test_nothing_the_user_set_is_otherwise_after_a_session() -> None:
+    """safety.md, 3: what the link changes it sets back; it changes no format, echo or mark at all."""
+    bench = Bench("ssc4").ready()
+    settings = bench.simulation.unit.state.settings
+    for command in ("PF 5.2", "VF -8.4", "LZ 0", "CW 1", "EO 1"):
+        bench.ask(command)
+    before = dict(settings)
+    bench.controller.watch("all", bench.controller.columns)
+    bench.run(2.0)
+    assert bench.result(bench.controller.download("#A\nPR 5\nEN").future).verified
+    assert bench.result(bench.controller.burn_program()).accepted
+    assert not bench.result(bench.controller.ask("QQ 5")).accepted
+    bench.controller.stop()
+    bench.run(1.0)
+    bench.controller.close()
+    assert dict(settings) == before
 
 
 TURNING = "#A\nN=0\n#B\nN=N+1\nJP #B"
