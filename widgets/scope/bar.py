@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QMenu,
     QProgressBar,
     QPushButton,
+    QSizePolicy,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -25,9 +26,8 @@ from device.curves import WINDOW_WORDS, Window
 from widgets.panel import set_text, show_role
 from widgets.parts.icons import icon
 from widgets.parts.look import look
+from widgets.parts.wrapping import WrappingRow
 
-TOOLED = 720  # px of width from which on all tools have room
-WORDY = 900  # px of width from which on all buttons say their names
 SPANS = {"10 s": 10.0, "30 s": 30.0, "2 min": 120.0, "10 min": 600.0, "1 h": 3600.0}
 
 
@@ -64,6 +64,8 @@ class Bar(QWidget):
         self.progress, self.words = QProgressBar(), QLabel()
         self._busy = False
         self._sides = ("", "")  # of the last start
+        self._shown: list[bool] = []
+        self._fitting = False
         self._name_all()
         self._lay_out()
         self._connect()
@@ -134,6 +136,7 @@ class Bar(QWidget):
         self._busy = True
         for widget in (self.finish, self.cancel, self.progress):
             widget.show()
+        self._fit_anew()
         self.progress.setRange(0, 0 if math.isnan(remaining_s) and phase != "preparing" else 1000)
         self.progress.setValue(round(1000 * fraction))
         left = "" if math.isnan(remaining_s) or phase == "preparing" else f", {_left(remaining_s)} left"
@@ -147,6 +150,7 @@ class Bar(QWidget):
         self._busy = False
         for widget in (self.finish, self.cancel, self.progress):
             widget.hide()
+        self._fit_anew()
         set_text(self.words, words)
         self.words.setToolTip(words)
         self.words.setVisible(bool(words))
@@ -156,12 +160,14 @@ class Bar(QWidget):
     def show_live(self, on: bool) -> None:
         self.live.setChecked(on)
         self.span.setVisible(on)
+        self._fit_anew()
 
     def show_view(self, view: View, live: bool) -> None:
         """Only what belongs to the view is offered."""
         self.windows.setVisible(view is View.SPECTRUM)
         for widget in (self.across, self.over, self.upward):
             widget.setVisible(view is View.PLANE)
+        self._fit_anew()
         self.cursors.setEnabled(view is not View.PLANE)
         words = "Save live values" if live else "Save capture"
         if self.save.accessibleName() != words:
@@ -228,15 +234,15 @@ class Bar(QWidget):
             box.setMinimumContentsLength(12)
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout()
+        apart = QWidget()
+        apart.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        row = WrappingRow(
+            self.capture, self.finish, self.cancel, self.live, self.span, apart,
+            self.views, self.windows, self.upward, self.over, self.across, self.cursors,
+            self.sides_left, self.sides_right, *self.tools, self.more,
+        )  # fmt: skip
         row.setSpacing(6)
-        for widget in (self.capture, self.finish, self.cancel, self.live, self.span):
-            row.addWidget(widget)
-        row.addStretch(1)
-        for widget in (self.views, self.windows, self.upward, self.over, self.across, self.cursors):
-            row.addWidget(widget)
-        for widget in (self.sides_left, self.sides_right, *self.tools, self.more):
-            row.addWidget(widget)
+        self._row = row
         state = QHBoxLayout()
         state.addWidget(self.words, 1)
         state.addWidget(self.progress, 2, Qt.AlignmentFlag.AlignVCenter)
@@ -247,16 +253,31 @@ class Bar(QWidget):
         column.addLayout(state)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Where there is little room some buttons show their icons only; their names and tips stay."""
         super().resizeEvent(event)
-        for button in (self.capture, self.live, self.views):
-            button.setMinimumWidth(button.sizeHint().width())
-        for button in (self.cursors, self.sides_left, self.sides_right):
-            button.setText(button.accessibleName() if event.size().width() >= WORDY else "")
-        wide = event.size().width() >= TOOLED
-        for tool in self.tools:
-            tool.setVisible(wide)
-        self.more.setVisible(not wide)
+        if event.size().width() != event.oldSize().width():
+            self._fit()
+
+    def _fit_anew(self) -> None:
+        """Where other controls are shown than before."""
+        shown = [box.isHidden() for box in (self.finish, self.span, self.windows, self.across)]
+        if shown != self._shown:
+            self._shown = shown
+            self._fit()
+
+    def _fit(self) -> None:
+        """Where there is little room some buttons show their icons only, then tools become a menu, then it wraps."""
+        if self._fitting:  # what is shown or hidden here may change the height at once
+            return
+        self._fitting = True
+        for words, tools in ((True, True), (False, True), (False, False)):
+            for button in (self.cursors, self.sides_left, self.sides_right):
+                button.setText(button.accessibleName() if words else "")
+            for tool in self.tools:
+                tool.setVisible(tools)
+            self.more.setVisible(not tools)
+            if self._row.sizeHint().width() <= self.width():
+                break
+        self._fitting = False
 
     def _show_more(self) -> None:
         """The tools that have no room, as a menu."""

@@ -289,7 +289,7 @@ class Chart(QWidget):
             self.cursors[number], angle=90, movable=True, pen=pyqtgraph.mkPen(colour, width=1, style=dash),
             hoverPen=pyqtgraph.mkPen(look().colour("accent"), width=3),
             label=NAMES[number],
-            labelOpts={"position": 0.06, "color": look().colour("surface"), "fill": colour, "movable": False},
+            labelOpts={"position": 0.85, "color": look().colour("surface"), "fill": colour, "movable": False},
         )  # fmt: skip
         line.sigPositionChanged.connect(lambda moved, number=number: self._moved(number, float(moved.value())))
         strip.addItem(line, ignoreBounds=True)

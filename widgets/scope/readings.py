@@ -16,6 +16,7 @@ from device.curves import Measured, measure
 from widgets.parts.look import look
 
 FIGURES = 5
+LONGEST_HEAD = 14  # characters in one line
 DASH = "–"
 ROWS = (
     "At A", "At B", "B − A", "Least", "Most", "Mean", "RMS", "Peak to peak", "Rise 10–90 %", "Frequency",
@@ -43,7 +44,7 @@ def figure(number: float, unit: str = "") -> str:
     """A number as a person reads it, with its unit; a dash for none."""
     if not math.isfinite(number):
         return DASH
-    text = f"{number:.{FIGURES}g}"
+    text = f"{number + 0.0:.{FIGURES}g}"  # never -0
     text = f"{number:.0f}" if "e+" in text and abs(number) < 1e12 else text
     return f"{text} {unit}".strip()
 
@@ -94,7 +95,7 @@ class Readings(QTableWidget):
             self._heads = heads
             self.setColumnCount(len(columns))
             for place, (label, colour) in enumerate(heads):
-                head = QTableWidgetItem(label)
+                head = QTableWidgetItem(label.replace(" ", "\n", 1) if len(label) > LONGEST_HEAD else label)
                 head.setForeground(QColor(colour))
                 self.setHorizontalHeaderItem(place, head)
         low, high = sorted(cursors) if cursors is not None else shown

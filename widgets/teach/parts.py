@@ -28,6 +28,7 @@ from widgets.jog.one_axis import enable
 from widgets.panel import set_text, show_role
 from widgets.parts.look import look
 from widgets.parts.stick import Stick
+from widgets.parts.wrapping import WrappingRow
 from widgets.teach.entries import Entry, OutputEntry, WaitEntry
 from widgets.teach.numbers import Numbers
 from widgets.teach.table import TeachModel, TeachView
@@ -40,6 +41,7 @@ STICK = 156  # px
 LOWEST_PICTURE = 150  # px
 SWITCHED_NOW = "I/O control is on: the outputs are switched now as well."
 ONLY_KEPT = "I/O control is off: the row is added, nothing is switched now."
+DRIVING = "● Driving: press to end"
 PLAYS = "The table is being played back."
 EDITS = (
     ("insert", "Insert", "An empty row above the selected one (Ins)"),
@@ -113,7 +115,7 @@ class Parts(QWidget):
     def show_enabled(self, on: bool) -> None:
         """Whether the stick drives."""
         self.enable.setChecked(on)
-        set_text_of(self.enable, "● Driving: press to end" if on else "Enable")
+        set_text_of(self.enable, DRIVING if on else "Enable")
         self.source.setEnabled(not on)
         self.stick.setEnabled(on and self._panel.source == "stick")
 
@@ -246,6 +248,8 @@ class Parts(QWidget):
         for key, words in SOURCES.items():
             self.source.addItem(words, key)
         self.source.setAccessibleName("Drive with")
+        self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.source.setMinimumContentsLength(10)
         self.enable.setCheckable(True)
         self.enable.setProperty("hint", "The stick drives X and Y until you end it, or another window comes in front.")
         self.fold.setAccessibleName("Stick and speeds")
@@ -254,9 +258,15 @@ class Parts(QWidget):
         self.fold.setArrowType(Qt.ArrowType.UpArrow)
         self.how.addItems(["Continuous", "Step by step"])
         self.how.setAccessibleName("Play back")
+        self.how.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.how.setMinimumContentsLength(9)
         self.stick.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.stick.setFixedSize(STICK, STICK)
-        top = _row(self.source, self.enable)
+        self.enable.setMinimumWidth(self.enable.fontMetrics().horizontalAdvance(DRIVING) + 28)
+        top = QHBoxLayout()
+        top.setSpacing(6)
+        top.addWidget(self.source, 1)
+        top.addWidget(self.enable)
         top.addWidget(self.fold)
         self._column.addLayout(top)
         middle = QGridLayout(self.block)
@@ -278,7 +288,9 @@ class Parts(QWidget):
         ticks.addWidget(self.io_control)
         ticks.addStretch(1)
         self._column.addLayout(ticks)
-        self._column.addLayout(_row(self.how, self.play, self.next, self.halt))
+        playing = WrappingRow(self.how, self.play, self.next, self.halt)
+        playing.setSpacing(6)
+        self._column.addLayout(playing)
         self._column.addWidget(self.view, 3)
         self.message.setWordWrap(True)
         show_role(self.message, "warning")

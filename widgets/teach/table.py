@@ -126,7 +126,7 @@ class TeachView(QTableView):
         rows.setDefaultSectionSize(ROW_HEIGHT)
         rows.setSectionResizeMode(rows.ResizeMode.Fixed)
         columns.setSectionResizeMode(columns.ResizeMode.Interactive)
-        columns.setStretchLastSection(True)
+        columns.setStretchLastSection(False)
         columns.setMinimumSectionSize(NARROWEST)
         columns.setFont(look().small_font())
         columns.setHighlightSections(False)
