@@ -15,6 +15,9 @@ def done(arguments: list[str], is_call: bool) -> int:
 
         return call(arguments)
     gc.disable()  # what loads now stays; looking for garbage among it costs a tenth of the start
+    from app.quick import spare_reading
+
+    spare_reading()
     from app.cli.studio import open_studio
 
     return open_studio(arguments)

@@ -25,7 +25,7 @@ from device.api import Badge, LineSettings, State, StopState
 from device.recorder import Recorder
 from device.simulator.process import SimulatorProcess
 from tests.app.hands import until
-from tests.app.pauses import LIMIT_MS, Heart, Ticks, judged
+from tests.app.pauses import LIMIT_MS, Heart, Ticks, too_long
 from tests.long import count, is_long, record
 from tests.stage import Stage
 from tests.widgets.program.test_speed import FULL_SPEED_MS, beside
@@ -67,7 +67,7 @@ def test_no_tick_takes_long_whatever_the_controller_does(stage: Stage) -> None:
     long_program(stage.studio.session)
     for _ in range(3):  # fonts, icons and layouts are loaded once
         stage.go()
-    judged(COMMAND, lambda: working(stage), bare=is_long())
+    assert too_long(COMMAND, lambda: working(stage), bare=is_long()) == {}
 
 
 def captured(stage: Stage, ticks: Ticks) -> None:
@@ -156,7 +156,7 @@ def test_no_tick_takes_long_while_something_is_recorded(stage: Stage) -> None:
             stage.go(5)
         return ticks.worst
 
-    judged(COMMAND, recording)
+    assert too_long(COMMAND, recording) == {}
 
 
 @pytest.fixture

@@ -30,10 +30,12 @@ def ready():
 QTimer.singleShot(0, ready)
 application.exec()
 """
-# without looking for garbage until the window is there, as `app.__main__` starts it
+# without looking for garbage until the window is there, and without reading sources, as `app.__main__` starts it
 STUDIO = """
 import gc, sys
 gc.disable()
+from app.quick import spare_reading
+spare_reading()
 from pathlib import Path
 from tests.benchmarks.studio import main
 sys.exit(main(Path(sys.argv[1])))

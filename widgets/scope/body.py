@@ -78,8 +78,10 @@ class Body(QWidget):
         self._beside.addWidget(self.readings, 1)
         self.side.addTab(self.kept, "Captures")
         self._views = Views(self.choices)
+        yield
         self._connect()
         self._fit_room(self.width())
+        yield
         self.redraw()
 
     # -------------------------------------------------------------------- told

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from tests.stage import Stage
 from tests.widgets.jog.test_jog import LEFT, at, held_for, make_table, ready, still, typed
+from widgets.jog.one_axis import OneAxisPage
 
 
 @pytest.fixture
@@ -21,13 +22,23 @@ def stage(qapp: QApplication, tmp_path: Path) -> Iterator[Stage]:
     made.clear_away()
 
 
+def seen(stage: Stage) -> OneAxisPage:
+    """Ready to jog, and the display was looked at before: its bars are made when it is first seen."""
+    page = ready(stage)
+    stage.studio.desk.bring("Display")
+    stage.go(2)
+    stage.studio.desk.bring("Jog")
+    stage.go(2)
+    return page
+
+
 def ghost(stage: Stage, axis: str = "X") -> float:
     """The ring on the bar of the display, mm."""
     return stage.studio.display.axes[axis].travel.marks.ghost
 
 
 def test_an_increment_shows_its_end_before_it_is_clicked(stage: Stage) -> None:
-    page = ready(stage)
+    page = seen(stage)
     stage.rig.type("DP 10000")  # 10 mm
     stage.until(lambda: "11.000" in page.ends.text())
     assert page.ends.text() == "◀ Ends at X 9.000 mm.\n▶ Ends at X 11.000 mm."
@@ -48,7 +59,7 @@ def test_an_increment_shows_its_end_before_it_is_clicked(stage: Stage) -> None:
 
 
 def test_a_typed_place_shows_the_ring_and_so_does_a_hold_but_home_has_no_end(stage: Stage) -> None:
-    page = ready(stage)
+    page = seen(stage)
     assert "not known beforehand" in page.home.toolTip()
     typed(page, "speed", "20")
     editor = page.form.cells[("place", "")].editor
@@ -77,7 +88,7 @@ def test_a_typed_place_shows_the_ring_and_so_does_a_hold_but_home_has_no_end(sta
 
 
 def test_lines_and_arcs_show_their_ends_in_the_view_from_above(stage: Stage) -> None:
-    ready(stage)
+    seen(stage)
     panel, plane = stage.studio.at_machine.jog, stage.studio.at_machine.plane
     plane_dock = stage.studio.window.docks["X-Y view"]
     plane_dock.setFloating(True)
@@ -115,7 +126,7 @@ def test_lines_and_arcs_show_their_ends_in_the_view_from_above(stage: Stage) -> 
 
 
 def test_speeds_are_kept_in_the_settings_and_points_in_their_file(stage: Stage) -> None:
-    page, settings = ready(stage), stage.studio.settings
+    page, settings = seen(stage), stage.studio.settings
     QTest.mouseClick(page.fast.buttons["medium"], LEFT)
     usual = page.item.speed
     assert usual == "10"  # 10 000 counts/s of 1000 counts/mm: slow on any machine
