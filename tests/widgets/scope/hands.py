@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication, QComboBox, QMenu, QWidget
 from device.capture import Capture, Channel
 from tests.stage import Stage
 from widgets.scope.body import Body
+from widgets.scope.chart import Chart
 
 SCALE = 500  # counts per mm
 LEFT = Qt.MouseButton.LeftButton
@@ -60,6 +61,14 @@ def finished(stage: Stage, seconds: float = 120) -> Capture:
     shown = stage.studio.at_machine.curves.body.shown
     assert shown is not None
     return shown
+
+
+def settled(chart: Chart) -> None:
+    """Until the picture stands still: in a slow process one look at the events is not enough."""
+    before: object = None
+    while (now := [(each.geometry(), each.viewRange()) for each in chart.strips.values()]) != before:
+        before = now
+        QTest.qWait(30)
 
 
 def drag(widget: QWidget, start: QPoint, end: QPoint) -> None:

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog
 from device.capture_file import load, save
 from device.curves import Derived
 from tests.stage import Stage
-from tests.widgets.scope.hands import LEFT, SCALE, choose, click, drag, enter, finished, given, pick, scope
+from tests.widgets.scope.hands import LEFT, SCALE, choose, click, drag, enter, finished, given, pick, scope, settled
 from widgets.scope.bar import View
 from widgets.scope.body import Body
 
@@ -119,14 +119,14 @@ def test_readings_and_cursors_tell_what_mathematics_tells(qapp: QApplication, bo
     assert after[0] == before[0] and after[1] - before[1] == pytest.approx(-10 * 4 / 1024)
     box = strip.getViewBox()
     view = strip.viewport()
-    QTest.qWait(50)  # the readings of the cursors have taken their room beside the chart
+    settled(body.chart)  # the readings of the cursors have taken their room beside the chart
 
     def at(place: float) -> QPoint:
         return box.mapViewToDevice(QPointF(place, 10.0)).toPoint()
 
     period = 1 / hertz
     drag(view, at(after[0]), at(period / 4))
-    QTest.qWait(50)
+    settled(body.chart)
     drag(view, at(after[1]), at(period / 4 + 2 * period))
     first, second = body.chart.cursors or [0, 0]
     pixel = (box.viewRange()[0][1] - box.viewRange()[0][0]) / box.width()
