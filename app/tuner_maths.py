@@ -93,7 +93,8 @@ def estimate_words(estimate: Estimate) -> str:
         parts.append(f"dry friction {told('coulomb', plant.coulomb, 'V')}")
     if abs(plant.gravity) > 0.01:
         parts.append(f"weight {told('gravity', plant.gravity, 'V')}")
-    parts.append(f"delay {told('delay', plant.delay, 'ms', 1000.0)}")
+    if plant.delay:
+        parts.append(f"delay {told('delay', plant.delay, 'ms', 1000.0)}")
     if plant.resonance is not None:
         parts.append(f"first resonance {told('frequency', plant.resonance.frequency, 'Hz')}")
     mode = " It answers like a drive in velocity mode." if plant.velocity_mode else ""

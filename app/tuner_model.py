@@ -193,6 +193,8 @@ class Modelling(QObject):
         if proposal.gains is not None:
             self._panel.manual.gains.show_gains(proposal.gains)
             self._to_draw = True
+        else:
+            self._panel.show_curves((), None, 10.0)  # what was predicted belongs to another target
 
     @property
     def period(self) -> float:

@@ -144,9 +144,9 @@ def degrees(value: complex) -> float:
     return angle - 360.0 if angle > 0.0 else angle
 
 
-def plain(value: float) -> str:
-    """Three digits."""
-    return f"{value:.3g}"
+def hertz(crossover: float) -> str:
+    """As the person asks for it."""
+    return f"{crossover / (2.0 * math.pi):.3g} Hz"
 
 
 def no_lead(case: Known, target: Target, at: complex) -> str:
@@ -158,7 +158,7 @@ def no_lead(case: Known, target: Target, at: complex) -> str:
     if case.plant.resonance is not None:
         causes.append(f"the resonance at {case.plant.resonance.frequency:.0f} Hz")
     return (
-        f"At {plain(target.crossover)} rad/s the axis is {lag:.0f}° late (inertia, {', '.join(causes)}); KD gives back "
+        f"At {hertz(target.crossover)} the axis is {lag:.0f}° late (inertia, {', '.join(causes)}); KD gives back "
         f"less than 90°, and {target.phase:.0f}° of margin needs more."
     )
 
@@ -167,7 +167,7 @@ def too_much_phase(case: Known, target: Target, at: complex) -> str:
     """Why less margin can not be had."""
     has = 180.0 + degrees(at)
     return (
-        f"At {plain(target.crossover)} rad/s the axis has {has:.0f}° of margin with KP alone"
+        f"At {hertz(target.crossover)} the axis has {has:.0f}° of margin with KP alone"
         + (" (its drive closes a velocity loop)" if case.plant.velocity_mode else "")
         + f"; {target.phase:.0f}° would need a negative KD. Ask for a higher crossover or more margin."
     )
@@ -184,7 +184,7 @@ def unsound(case: Known, gains: Gains, found: Margins, target: Target) -> str | 
         if miss(found, target) < 8.0 and spring is None:
             return (
                 f"KP {gains.kp:g}, KD {gains.kd:g} is as near as whole steps of the gains come to "
-                f"{plain(target.crossover)} rad/s: they are too coarse for this axis."
+                f"{hertz(target.crossover)}: they are too coarse for this axis."
             )
         return f"The gain passes 1 more than once: {where} lifts or lowers it again."
     if found.phase is None or found.phase < target.phase - CLOSE_PHASE:
@@ -214,7 +214,7 @@ def unsound(case: Known, gains: Gains, found: Margins, target: Target) -> str | 
 def attempt(case: Known, target: Target) -> Design | str:
     """The gains, or why not."""
     if target.crossover >= FASTEST * math.pi / case.period:
-        return f"{plain(target.crossover)} rad/s is too near to half the sampling frequency."
+        return f"{hertz(target.crossover)} is too near to half the sampling frequency."
     at = complex(response(case.plant, case.period, numpy.array([target.crossover]))[0])
     values = exact(at, target, case.period)
     if values == "late":
@@ -256,7 +256,7 @@ def design(plant: AxisPlant, target: Target, period: float, keep: Gains = FACTOR
     """Gains for a target, or why there are none and which target is the nearest that can be reached."""
     if not (target.crossover > 0.0 and 0.0 < target.phase < 90.0 and 0.0 <= target.integral <= MOST_INTEGRAL):
         return Refusal(
-            "A target is a crossover above 0 rad/s, a phase margin between 0 and 90° and an integrator corner of at "
+            "A target is a crossover above 0 Hz, a phase margin between 0 and 90° and an integrator corner of at "
             f"most {MOST_INTEGRAL:g} of the crossover.",
             None,
             None,

@@ -114,8 +114,11 @@ class BodePlot(QWidget):
 
     def show_bode(self, bode: Bode | None) -> None:
         """Another loop, or none."""
-        self._shown = bode
+        first, self._shown = self._shown is None and bode is not None, bode
         self._draw()
+        if first:
+            self.gain.fit()
+            self.phase.fit()
 
     def show_target(self, crossover: float, phase: float) -> None:
         """Where the handles stand: rad/s and degrees."""
@@ -180,6 +183,8 @@ class BodePlot(QWidget):
         if self._shown is None:
             for curve in (*self.curves["Axis"], *self.curves["Loop"]):
                 curve.setData([], [])
+            self.gain.setRange(xRange=(0.0, 2.7), yRange=(-60.0, 60.0))  # an empty plot has numbers, too
+            self.phase.setRange(yRange=(LOWEST_PHASE, -90.0))
             return
         bode = self._shown
         seen = self._seen(bode)

@@ -74,7 +74,8 @@ def metrics_words(metrics: Metrics | None) -> str:
         return ""
     rise = "–" if metrics.rise_time is None else f"{metrics.rise_time * 1000:.1f} ms"
     settled = "did not settle" if metrics.settling_time is None else f"settled in {metrics.settling_time * 1000:.0f} ms"
-    torque = f", ▲ torque at its limit {metrics.saturated:.0%} of the time" if metrics.saturated > 0 else ""
+    part = f"{metrics.saturated:.0%}" if metrics.saturated >= 0.005 else "less than 1%"
+    torque = f", ▲ torque at its limit {part} of the time" if metrics.saturated > 0 else ""
     return (
         f"Rise {rise}, overshoot {metrics.overshoot:.0%}, {settled}, steady error {metrics.steady_error:.1f} counts, "
         f"largest {metrics.peak_error:.0f}{torque}"

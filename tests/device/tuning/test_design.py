@@ -131,7 +131,7 @@ def test_every_answer_is_true(name: str) -> None:
         (AxisPlant(gain=1e6, pole=300.0), Target(60, 40), ("with KP alone", "velocity loop", "negative KD")),
         (AxisPlant(gain=5e4), Target(150, 60), ("One count of the encoder would make", "too coarse")),
         (AxisPlant(gain=3e5, resonance=Resonance(60, 0.03, 0.5, True)), Target(70, 45), ("resonance at 60 Hz",)),
-        (PLAIN, Target(0, 45), ("above 0 rad/s",)),
+        (PLAIN, Target(0, 45), ("above 0 Hz",)),
         (PLAIN, Target(50, 95), ("between 0 and 90°",)),
         (PLAIN, Target(3000, 45), ("half the sampling frequency",)),
     ],
