@@ -52,6 +52,10 @@ def test_a_circle_leaves_a_circle(stage: Stage) -> None:
     plane = stage.studio.at_machine.plane
     rig.type("VS 4000", "VA 200000", "VD 200000", "VM XY", "CR 5000,180,360", "VE", "BGS")
     stage.until(lambda: plane.actual.count > 8)
+    for _ in range(10):  # cross and point are of one moment, whatever else is in sight
+        stage.go(1)
+        times = [stage.controller.last().time(key) for key in plane.watches()]
+        assert len(times) == 4 and max(times) - min(times) < 0.0005
     stage.until(lambda: not rig.simulation.state()["axes"]["X"]["moving"])
     stage.go(30)
     # CR 5000,180,360 starts at angle 180 degrees: the centre lies one radius, 50 mm, to the right of the start
