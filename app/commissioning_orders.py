@@ -168,7 +168,7 @@ class Orders(Typed):
     def _polarity(self) -> None:
         d = self.desk
         counts = self.whole("counts", "Way of the test move", str(moves.TRIAL_COUNTS))
-        error = self.whole("error", "Error limit meanwhile", str(moves.TRIAL_ERROR))
+        error = self.whole("error", "Largest error limit", str(moves.TRIAL_ERROR))
         if not error < abs(counts) <= moves.LARGEST_TRIAL:
             raise NotTyped(
                 f"The way of the test move must be longer than the error limit, which guards it, and at most "

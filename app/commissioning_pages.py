@@ -217,7 +217,7 @@ def _direction(now: Now) -> Parts:
 def _polarity(now: Now) -> Parts:
     fields = (
         Entered("counts", "Way of the test move", now.text("polarity", "counts", str(TRIAL_COUNTS)), "counts"),
-        Entered("error", "Error limit meanwhile", now.text("polarity", "error", str(TRIAL_ERROR)), "counts"),
+        Entered("error", "Largest error limit", now.text("polarity", "error", str(TRIAL_ERROR)), "counts"),
     )
     came = now.moved is not None and now.record.of("polarity").verdict is not Verdict.FAILED
     waiting = "" if came and not now.busy else "After a test move that came to its target."

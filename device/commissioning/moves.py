@@ -161,10 +161,10 @@ def _driven(c: Controller, trial: Trial, start: int, former: Former, job: Job[Mo
         "TL": min(COMMANDS["TL"].stored(scaled(trial.torque)), former.values["TL"]),
         "FL": scaled(high + MARGIN),
         "BL": scaled(low - MARGIN),
-        "KI": 0,  # it would push harder and harder against a reading that stands
     }
     pace = {"SP": scaled(SPEED), "AC": scaled(RAMP), "DC": scaled(RAMP), "IT": ONE}
-    yield from assign(c, axis, guards | pace)
+    patience = {"KI": 0}  # it would push harder and harder against a reading that stands
+    yield from assign(c, axis, guards | pace | patience)
     job.show("moving", 0, abs(trial.counts))
     yield from said(c, f"SH {axis}")
     if trial.before:
