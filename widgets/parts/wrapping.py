@@ -15,6 +15,7 @@ class WrappingRow(QLayout):
     def __init__(self, *widgets: QWidget) -> None:
         super().__init__()
         self._items: list[QLayoutItem] = []
+        self._heights: dict[int, int] = {}  # by width: asked for again and again while a window is laid out
         self.setSpacing(SPACE)
         for widget in widgets:
             self.addWidget(widget)
@@ -35,7 +36,14 @@ class WrappingRow(QLayout):
         return True
 
     def heightForWidth(self, width: int) -> int:
-        return _height(self._lines(width), self.spacing())
+        if width not in self._heights:
+            self._heights[width] = _height(self._lines(width), self.spacing())
+        return self._heights[width]
+
+    def invalidate(self) -> None:
+        """Something in it is shown, hidden or of another size."""
+        self._heights.clear()
+        super().invalidate()
 
     def minimumSize(self) -> QSize:
         """As wide as the widest control."""
@@ -64,11 +72,15 @@ class WrappingRow(QLayout):
 
     def _lines(self, width: int) -> list[list[QLayoutItem]]:
         lines: list[list[QLayoutItem]] = []
+        used, space = 0, self.spacing()
         for each in self._shown():
-            if lines and _width([*lines[-1], each], self.spacing()) <= width:
+            wide = _wide(each)
+            if lines and used + space + wide <= width:
                 lines[-1].append(each)
+                used += space + wide
             else:
                 lines.append([each])
+                used = wide
         return lines
 
 
