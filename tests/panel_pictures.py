@@ -211,6 +211,18 @@ def scope_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     rig.controller.ask("PR -4000,-2500;BG")
     stage.go(120)
     yield "scope-live", dock
+    body.bar.cursors.click()
+    stage.go(3)
+    yield "scope-live-held", dock
+    body.bar.cursors.click()
+    body.bar.views.setCurrentText("X-Y")
+    stage.go(3)
+    yield "scope-live-x-y", dock
+    body.bar.views.setCurrentText("Over time")
+    dock.resize(430, 560)
+    stage.go(3)
+    yield "scope-narrow", dock
+    dock.resize(1180, 720)
     body.bar.live.click()
     dock.setFloating(False)
     stage.go()
