@@ -10,15 +10,16 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-# Those whose steps need no particular pace. Left to 19 200: what has real processes at a speed of its own
-# (operator_live, leaving_live, main_job, holding, faults, killed), what measures, and what needs no line at all.
+# Those whose steps need no particular pace. Left to 19 200: what is seen for the time of a tick only (run, where a
+# download takes longer), what has real processes at a speed of its own (operator_live, leaving_live, main_job,
+# holding, faults, killed), what measures, and what needs no line at all.
 PANELS = (
     *(f"tests/widgets/{name}" for name in (
         "commissioning", "display", "jog", "plane", "scope", "simulator", "teach/test_teach.py", "terminal", "values",
     )),
     *(f"tests/app/test_{name}.py" for name in (
-        "backups", "compare", "doctor_desk", "editor", "event_list", "homed", "live_values", "operator", "question",
-        "recorder", "run", "setup_desk", "slow_run", "stop", "tracing", "tuner", "typing", "watch",
+        "backups", "doctor_desk", "editor", "event_list", "homed", "live_values", "operator", "question", "recorder",
+        "slow_run", "stop", "tracing", "watch",
     )),
 )  # fmt: skip
 
