@@ -301,7 +301,6 @@ class TunerPanel(Panel):
         self._scroll = QScrollArea()
         self._scroll.setWidgetResizable(True)
         self._scroll.setFrameShape(QFrame.Shape.NoFrame)
-        self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(left)
         self._sides = QHBoxLayout(self._area)
@@ -341,10 +340,12 @@ class TunerPanel(Panel):
         row = QHBoxLayout()
         row.setSpacing(4)
         self.axes.setAccessibleName("Axis to tune")
+        self.axes.setToolTip("Axis to tune")
         self.axes.setMaximumWidth(64)
-        row.addWidget(QLabel("Axis"))
+        self._axis_label = QLabel("Axis")
+        row.addWidget(self._axis_label)
         row.addWidget(self.axes)
-        row.addSpacing(8)
+        row.addSpacing(4)
         for index, button in enumerate(self.buttons):
             button.setCheckable(True)
             button.setProperty("role", "segment")
@@ -367,6 +368,9 @@ class TunerPanel(Panel):
         elif not wide and self._column.indexOf(self.results) < 0:
             self._sides.removeWidget(self.results)
             self._column.insertWidget(self._column.count() - 1, self.results)
+        self._axis_label.setVisible(wide)
+        policy = Qt.ScrollBarPolicy
+        self._scroll.setHorizontalScrollBarPolicy(policy.ScrollBarAlwaysOff if wide else policy.ScrollBarAsNeeded)
         self.results.setMinimumHeight(0 if wide else LOWEST * (2 if self.page == MODEL else 1))
         needed = self._scroll.widget().minimumSizeHint().width() + self._scroll.verticalScrollBar().width()
         left = max(LEFT, needed + 12)
