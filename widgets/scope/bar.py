@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from enum import StrEnum
 from typing import Any
 
@@ -134,13 +135,13 @@ class Bar(QWidget):
     def show_progress(self, phase: str, fraction: float, remaining_s: float) -> None:
         """A capture is under way."""
         self._busy = True
-        for widget in (self.finish, self.cancel, self.progress):
-            widget.show()
-        self._fit_anew()
+        with self._at_once():
+            for widget in (self.finish, self.cancel, self.progress, self.words):
+                widget.show()
+            self._fit_anew()
         self.progress.setRange(0, 0 if math.isnan(remaining_s) and phase != "preparing" else 1000)
         self.progress.setValue(round(1000 * fraction))
         left = "" if math.isnan(remaining_s) or phase == "preparing" else f", {_left(remaining_s)} left"
-        self.words.setVisible(True)
         self.words.setWordWrap(False)
         set_text(self.words, f"{phase[:1].upper()}{phase[1:]}{left}")
         show_role(self.words, "quiet")
@@ -148,9 +149,10 @@ class Bar(QWidget):
     def show_result(self, words: str, good: bool = True) -> None:
         """Nothing is under way any more."""
         self._busy = False
-        for widget in (self.finish, self.cancel, self.progress):
-            widget.hide()
-        self._fit_anew()
+        with self._at_once():
+            for widget in (self.finish, self.cancel, self.progress):
+                widget.hide()
+            self._fit_anew()
         set_text(self.words, words)
         self.words.setToolTip(words)
         self.words.setVisible(bool(words))
@@ -159,15 +161,17 @@ class Bar(QWidget):
 
     def show_live(self, on: bool) -> None:
         self.live.setChecked(on)
-        self.span.setVisible(on)
-        self._fit_anew()
+        with self._at_once():
+            self.span.setVisible(on)
+            self._fit_anew()
 
     def show_view(self, view: View, live: bool) -> None:
         """Only what belongs to the view is offered."""
-        self.windows.setVisible(view is View.SPECTRUM)
-        for widget in (self.across, self.over, self.upward):
-            widget.setVisible(view is View.PLANE)
-        self._fit_anew()
+        with self._at_once():
+            self.windows.setVisible(view is View.SPECTRUM)
+            for widget in (self.across, self.over, self.upward):
+                widget.setVisible(view is View.PLANE)
+            self._fit_anew()
         self.cursors.setEnabled(view is not View.PLANE)
         words = "Save live values" if live else "Save capture"
         if self.save.accessibleName() != words:
@@ -256,6 +260,20 @@ class Bar(QWidget):
         super().resizeEvent(event)
         if event.size().width() != event.oldSize().width():
             self._fit()
+
+    @contextmanager
+    def _at_once(self) -> Iterator[None]:
+        """What is shown or hidden inside is laid out and painted once, afterwards; Qt would do it after each."""
+        layout = self.layout()
+        assert layout is not None
+        layout.setEnabled(False)
+        self.setUpdatesEnabled(False)
+        try:
+            yield
+        finally:
+            layout.setEnabled(True)
+            self.setUpdatesEnabled(True)
+            layout.invalidate()
 
     def _fit_anew(self) -> None:
         """Where other controls are shown than before."""
