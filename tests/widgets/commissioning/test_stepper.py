@@ -83,7 +83,10 @@ def test_a_stepper_through_the_whole_list(stage: Stage, model: str, tmp_path: Pa
 
 @pytest.mark.parametrize(
     ("answer", "words"),
-    [("turned_backward", "the other way than the one called forward"), ("turned_not", "did not turn")],
+    [
+        ("turned_backward", "the other way than the one called forward"),
+        pytest.param("turned_not", "did not turn", marks=pytest.mark.long),
+    ],
 )
 def test_what_was_seen_of_the_motor(stage: Stage, answer: str, words: str) -> None:
     person = Person(stage, done=DIRECTION, drive=Drive.STEPPER)
@@ -111,6 +114,7 @@ def test_a_stepper_without_its_jumper(stage: Stage) -> None:
     assert person.furthest == 0
 
 
+@pytest.mark.long
 def test_a_stepper_at_its_limit_switch(stage: Stage) -> None:
     person = Person(stage, done=DIRECTION, drive=Drive.STEPPER)
     stage.type("MT 2")
