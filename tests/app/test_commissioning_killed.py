@@ -52,6 +52,7 @@ def one(qapp: QApplication, folder: Path, seed: int, amid: bool) -> bool:
     folder.mkdir()
     with SimulatorProcess("ssc2", baud=BAUD, pty=True, plant=resources.path("plants/bench.toml")) as machine:
         before = connected(machine.address)
+        assert before.ask("MO X").result(30).accepted  # from here on only a move switches it on
         for name, value in FORMER.items():
             assert before.ask(f"{name}X={value:g}").result(30).accepted
         before.close()
