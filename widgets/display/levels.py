@@ -42,6 +42,7 @@ class Levels(QWidget):
         while len(self.lamps) > len(names):
             lamp = self.lamps.pop()
             self._grid.removeWidget(lamp)
+            lamp.hide()
             lamp.deleteLater()
         while len(self.lamps) < len(names):
             self._add(len(self.lamps) + 1)
