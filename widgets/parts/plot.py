@@ -85,13 +85,16 @@ def inside() -> pyqtgraph.PlotItem:
 
 
 class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
-    """A diagram that follows its data until the person looks elsewhere, and again once it is told to fit."""
+    """A diagram that follows its data until the person looks elsewhere, and again once it is told to fit.
+
+    It belongs to a parent from the start: left to the garbage collector, its items and its scene would go in any order.
+    """
 
     fitted = Signal()
     panned = Signal()  # the person looks elsewhere from now on
 
     def __init__(
-        self, name: str, equal: bool = False, parent: QWidget | None = None, item: pyqtgraph.PlotItem | None = None
+        self, name: str, equal: bool = False, *, parent: QWidget, item: pyqtgraph.PlotItem | None = None
     ) -> None:
         super().__init__(parent, plotItem=item or inside())
         self.setAccessibleName(name)

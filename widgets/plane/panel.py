@@ -145,7 +145,7 @@ class PlanePanel(Panel):
         yield
         item = inside()
         yield
-        plot = Plot("Path of two axes from above", equal=True, item=item)
+        plot = Plot("Path of two axes from above", equal=True, parent=self, item=item)
         yield
         self._drawn = {
             "limits": plot.plot(), "commanded": plot.plot(), "actual": plot.plot(),

@@ -172,7 +172,7 @@ class Parts(QWidget):
         yield
         item = inside()
         yield
-        self.plot = Plot("Path of the teach table", equal=True, item=item)
+        self.plot = Plot("Path of the teach table", equal=True, parent=self, item=item)
         self.plot.setMinimumHeight(LOWEST_PICTURE)
         self.plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)  # its own wish is a window
         self._line, self._dots = self.plot.plot(), self.plot.plot(symbol="o", symbolSize=6, symbolPen=None)

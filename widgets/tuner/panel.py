@@ -249,13 +249,13 @@ class TunerPanel(Panel):
         yield
         plots: list[Plot] = []
         for name in ("Step response", "Motor command"):
-            plots.append(Plot(name))
+            plots.append(Plot(name, parent=self.results))
             yield
         step_plot = StepPlot(*plots)
         yield
         parts: list[BodePart] = []
         for name in ("Bode plot, gain", "Bode plot, phase"):
-            parts.append(BodePart(name))
+            parts.append(BodePart(name, parent=self.results))
             yield
         self.results.take(step_plot, BodePlot(*parts))
         self._connect()

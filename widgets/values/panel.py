@@ -292,7 +292,7 @@ class ValuesPanel(Panel):
         if self.plot is None:
             from widgets.parts.plot import Plot
 
-            self.plot = Plot("Array")
+            self.plot = Plot("Array", parent=self)
             self.plot.setMinimumHeight(120)
             self._curve = self.plot.plot()
             self._right_column.insertWidget(1, self.plot, 1)

@@ -11,7 +11,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from codegen.setup import Unit
@@ -79,10 +79,11 @@ def test_the_soft_limits_are_drawn_and_the_other_axis_gives_way(stage: Stage) ->
 
 
 def test_keys_pan_zoom_and_fit_and_copy(qtbot: QtBot, stage: Stage) -> None:
-    plot = Plot("A diagram")
-    qtbot.addWidget(plot)
+    window = QWidget()
+    qtbot.addWidget(window)
+    plot = Plot("A diagram", parent=window)
     plot.plot([0, 10], [0, 10])
-    plot.show()
+    window.show()
     plot.fit()
     (left, right), _ = plot.viewRange()
     QTest.keyClick(plot, Qt.Key.Key_Right)
