@@ -24,7 +24,7 @@ def done(arguments: list[str], is_call: bool) -> int:
 
 
 def let_go_of_output() -> None:
-    """Standard output can not be written any more; what is left in its buffer is dropped, also at exit."""
+    """Standard output cannot be written any more; what is left in its buffer is dropped, also at exit."""
     try:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (OSError, ValueError):

@@ -55,7 +55,7 @@ class Keeping(QObject):
         return folder_of(self._root, controller)
 
     def before(self, reason: str, go_on: Callable[[str | None], None]) -> None:
-        """Keeps what is there, then goes on with the program that was read; asks when it can not be kept."""
+        """Keeps what is there, then goes on with the program that was read; asks when it cannot be kept."""
         controller = self._connection.controller
         if controller.state is not State.READY or controller.model is None or not controller.control:
             go_on(None)  # what comes next says why it is not possible
@@ -119,7 +119,7 @@ class Keeping(QObject):
                 return ""
             keep(folder, found, self._now())
         except OSError as reason:
-            return f"The back-up can not be written: {(reason.strerror or str(reason)).lower()}."
+            return f"The back-up cannot be written: {(reason.strerror or str(reason)).lower()}."
         self.changed.emit()
         return ""
 

@@ -149,7 +149,7 @@ class Eeprom(QObject):
             self._keep(known)
 
     def _read(self, controller: Controller) -> None:
-        """What has just been burned is read and remembered: it can not be read from the EEPROM."""
+        """What has just been burned is read and remembered: it cannot be read from the EEPROM."""
         what, self._to_read = self._to_read, frozenset()
         job: Job[Backup] = Job()
         job.future = controller.run(backup_steps(controller, job, running=True), Priority.DOWNLOAD, "download")
@@ -176,7 +176,7 @@ class Eeprom(QObject):
         try:
             save_burned(folder, known)
         except OSError as reason:
-            self.said.emit(f"What was burned can not be remembered: {(reason.strerror or str(reason)).lower()}.")
+            self.said.emit(f"What was burned cannot be remembered: {(reason.strerror or str(reason)).lower()}.")
 
     def _folder(self, controller: Controller) -> Path | None:
         """Only a machine with a serial number can be told again; a simulator's EEPROM ends with it."""

@@ -173,7 +173,7 @@ class Backups(QObject):
         try:
             load(path)
         except FileUnreadable as reason:
-            self._ask("The back-up can not be opened", f"{reason}.", (), "problem")
+            self._ask("The back-up cannot be opened", f"{reason}.", (), "problem")
             return
         self._opened = [path, *(each for each in self._opened if each != path)]
         self._fill()
@@ -187,7 +187,7 @@ class Backups(QObject):
             try:
                 save(path, chosen)
             except OSError as reason:
-                self._ask("The copy can not be written", f"{path}: {reason.strerror or reason}.", (), "problem")
+                self._ask("The copy cannot be written", f"{path}: {reason.strerror or reason}.", (), "problem")
                 return
             self.said.emit(f"Written: {path.name}")
 

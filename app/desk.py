@@ -199,7 +199,7 @@ class Desk(QObject):
     def _ask_forget(self, row: int) -> None:
         if 0 <= row < len(self._left):
             left = self._left[row]
-            words = f"{_line(left)}\n\nWhat is thrown away can not be brought back."
+            words = f"{_line(left)}\n\nWhat is thrown away cannot be brought back."
             self.ask("Throw unsaved work away?", words, [("Throw it away", partial(self._forget, left))], "warning")
 
     def _forget(self, left: Recovered) -> None:

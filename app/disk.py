@@ -108,7 +108,7 @@ def _signature(path: Path | None) -> tuple[int, int, int]:
 
 
 def fingerprint_of(path: Path) -> str:
-    """Of what is in the file; empty when it can not be read."""
+    """Of what is in the file; empty when it cannot be read."""
     try:
         return hashlib.sha256(path.read_bytes()).hexdigest()
     except OSError:

@@ -162,7 +162,7 @@ class Happened(QObject):
 
 
 def zipped(parts: Mapping[str, bytes], backup: Path | None) -> bytes:
-    """The parts as one file; a back-up that can not be read any more is left out."""
+    """The parts as one file; a back-up that cannot be read any more is left out."""
     import zipfile
 
     whole = BytesIO()

@@ -11,7 +11,7 @@ from widgets.parts.icons import icon
 
 WORDS = {
     Disk.CHANGED: "{name} was changed by another program. Saving would overwrite that.",
-    Disk.GONE: "{name} is not there any more, or can not be read: another program moved, renamed or deleted it.",
+    Disk.GONE: "{name} is not there any more, or cannot be read: another program moved, renamed or deleted it.",
 }
 UNSAVED = " Reload brings the file; your own changes stay within reach of Undo."
 

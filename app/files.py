@@ -1,4 +1,4 @@
-"""New, open, save: what is asked before work could be lost, and what is said when a file can not be read."""
+"""New, open, save: what is asked before work could be lost, and what is said when a file cannot be read."""
 
 from __future__ import annotations
 
@@ -75,13 +75,13 @@ class Files(QObject):
         try:
             self._session.open_copy(path)
         except (FileUnreadable, OSError) as error:
-            self._ask("The program can not be opened", _sentence(error, path), (), "problem")
+            self._ask("The program cannot be opened", _sentence(error, path), (), "problem")
 
     def _open_path(self, path: Path) -> None:
         try:
             self._session.open(path)
         except (FileUnreadable, OSError) as error:
-            self._ask("The program can not be opened", _sentence(error, path), (), "problem")
+            self._ask("The program cannot be opened", _sentence(error, path), (), "problem")
             return
         self._remember(path)
         newer = [left for left in self._session.recoverable() if left.belongs_to(path) and left.is_newer_than_file()]
@@ -99,7 +99,7 @@ class Files(QObject):
         try:
             self._session.revert()
         except (FileUnreadable, OSError) as error:
-            self._ask("The file can not be reloaded", _sentence(error, self._session.path), (), "problem")
+            self._ask("The file cannot be reloaded", _sentence(error, self._session.path), (), "problem")
             return
         if self._session.path is not None:
             self.said.emit(f"Reloaded: {self._session.path.name}")
@@ -112,7 +112,7 @@ class Files(QObject):
         try:
             document = load(path)
         except (FileUnreadable, OSError) as error:
-            self._ask("The file can not be compared", _sentence(error, path), (), "problem")
+            self._ask("The file cannot be compared", _sentence(error, path), (), "problem")
             return
         from widgets.terminal.code_window import CodeWindow
 
@@ -207,7 +207,7 @@ class Files(QObject):
             self._ask("Somebody else changed this file", str(changed), answers, "warning")
             return
         except OSError as error:
-            self._ask("The program can not be saved", _sentence(error, self._session.path), (), "problem")
+            self._ask("The program cannot be saved", _sentence(error, self._session.path), (), "problem")
             return
         if self._session.path is not None:
             self._remember(self._session.path)
@@ -219,7 +219,7 @@ class Files(QObject):
         try:
             path.write_text(code, encoding="ascii", errors="replace", newline="\n")
         except OSError as error:
-            self._ask("The code can not be written", _sentence(error, path), (), "problem")
+            self._ask("The code cannot be written", _sentence(error, path), (), "problem")
             return
         self.said.emit(f"Written: {path.name}")
 

@@ -69,7 +69,7 @@ def show_texts(bar: QToolBar, style: Qt.ToolButtonStyle) -> None:
 
 
 def tool_bar() -> QToolBar:
-    """A toolbar with icons of 24 px that can not be dragged away."""
+    """A toolbar with icons of 24 px that cannot be dragged away."""
     bar = QToolBar()
     bar.setMovable(False)
     bar.setIconSize(QSize(24, 24))

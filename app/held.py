@@ -132,7 +132,7 @@ def slow_words(held: Held, percent: int) -> str:
     kept = f"It takes the place of what the controller holds: {held.words}. " if held.lines else ""
     return (
         f"The program is sent with every speed at {percent} %. {kept}"
-        "Paths and places stay the same; accelerations and pauses too. It can not be burned."
+        "Paths and places stay the same; accelerations and pauses too. It cannot be burned."
     )
 
 

@@ -48,13 +48,13 @@ class Importing(QObject):
             module = read_module(path, self._session.document)
         except (FileUnreadable, OSError) as error:
             said = str(error) if isinstance(error, FileUnreadable) else f"{path.name}: {error.strerror or error}"
-            self._ask("The module can not be imported", f"{said.rstrip('.')}.", (), "problem")
+            self._ask("The module cannot be imported", f"{said.rstrip('.')}.", (), "problem")
             return
         made = plan(self._session.document, module)
         if made.cannot:
-            self._ask("The module can not be imported", f"{path.name}: {made.cannot}.", (), "problem")
+            self._ask("The module cannot be imported", f"{path.name}: {made.cannot}.", (), "problem")
         elif not any(True for _ in made.document.program.steps()):
-            self._ask("The module can not be imported", f"{path.name} holds no instruction.", (), "problem")
+            self._ask("The module cannot be imported", f"{path.name} holds no instruction.", (), "problem")
         elif made.renames or made.left_out:
             self._show(path, made)
         else:

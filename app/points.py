@@ -22,7 +22,7 @@ class Points:
         self._unreadable = ""
 
     def open(self, setup: Setup) -> str:
-        """The points of this machine; why they can not be read, or nothing."""
+        """The points of this machine; why they cannot be read, or nothing."""
         path = self._folder / f"{file_name(setup)}.json"
         if path == self._path and not self._unreadable:
             return ""
@@ -59,7 +59,7 @@ class Points:
             self._folder.mkdir(parents=True, exist_ok=True)
             save_text(self._path, dumps(points))
         except OSError as error:
-            return f"The points can not be saved: {self._path}: {error.strerror or error}."
+            return f"The points cannot be saved: {self._path}: {error.strerror or error}."
         self.points = points
         return ""
 

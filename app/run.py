@@ -82,7 +82,7 @@ class Run(QObject):
         if errors:
             first = errors[0]
             self._ask(
-                "The program can not be downloaded yet" if percent == FULL else f"It can not run at {percent} %",
+                "The program cannot be downloaded yet" if percent == FULL else f"It cannot run at {percent} %",
                 _as_sentence(first.message) + (f" ({len(errors) - 1} more in Problems.)" if len(errors) > 1 else ""),
                 [("Show it", lambda: self.show_problem.emit(first.step))],
                 "problem",

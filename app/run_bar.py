@@ -28,7 +28,7 @@ BADGES = {
         "warning",
         "◔ Slowed to {percent} %",
         "◔ Slow {percent} %",
-        "The controller holds {held}. Execute asks before it goes back to full speed; it can not be burned.",
+        "The controller holds {held}. Execute asks before it goes back to full speed; it cannot be burned.",
     ),
     Holding.OTHER: (
         "warning",

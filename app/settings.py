@@ -112,7 +112,7 @@ class Settings:
         self._listeners.append(listener)
 
     def save(self) -> None:
-        """Writes the whole file or nothing of it; a folder that can not be written to is a complaint, not a stop."""
+        """Writes the whole file or nothing of it; a folder that cannot be written to is a complaint, not a stop."""
         text = json.dumps({**self._unknown, **self._values}, indent=2, sort_keys=True)
         half = self.path.with_suffix(".new")
         try:

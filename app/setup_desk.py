@@ -97,7 +97,7 @@ class SetupDesk(QObject):
         window.show_online(Online(self._why_not_read(), need.control(facts) or need.quiet(facts), serial))
 
     def _why_not_read(self) -> str:
-        """Why the controller can not be read now; nothing when it can."""
+        """Why the controller cannot be read now; nothing when it can."""
         facts = self.facts()
         return need.live(facts) or need.quiet(facts)
 

@@ -55,7 +55,7 @@ class SetupFile(QObject):
         except FileUnreadable as error:
             said = str(error).rstrip(".")
             words = said if path.name in said else f"{path.name}: {said}"
-            self._ask("The setup can not be opened", f"{words}.", (), "problem")
+            self._ask("The setup cannot be opened", f"{words}.", (), "problem")
             return
         self._follow(path, setup)
         self.opened.emit(setup)
@@ -96,7 +96,7 @@ class SetupFile(QObject):
         try:
             save_setup(path, setup)
         except OSError as error:
-            self._ask("The setup can not be saved", f"{path}: {error.strerror or error}.", (), "problem")
+            self._ask("The setup cannot be saved", f"{path}: {error.strerror or error}.", (), "problem")
             return
         self._follow(path, setup)
         self.said.emit(f"Saved: {path.name}")
@@ -126,5 +126,5 @@ def keep_last(folder: Path, setup: Setup) -> str:
         folder.mkdir(parents=True, exist_ok=True)
         save_setup(folder / DEFAULT, setup)
     except OSError as error:
-        return f"This setup can not be kept as the default of new programs: {error.strerror or error}."
+        return f"This setup cannot be kept as the default of new programs: {error.strerror or error}."
     return ""

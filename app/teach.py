@@ -306,10 +306,10 @@ class Teach(QObject):
             table = teach_file.load(path)
         except (FileUnreadable, OSError) as error:
             said = str(error) if isinstance(error, FileUnreadable) else f"{path.name}: {error.strerror or error}"
-            self._ask("The teach data can not be opened", f"{said.rstrip('.')}.", (), "problem")
+            self._ask("The teach data cannot be opened", f"{said.rstrip('.')}.", (), "problem")
             return
         if reason := teach.unfit(table, self.setup):
-            self._ask("The teach data can not be opened", f"{path.name}: {reason}", (), "problem")
+            self._ask("The teach data cannot be opened", f"{path.name}: {reason}", (), "problem")
             return
         self.change(table)
         self._saved = table
@@ -351,6 +351,6 @@ class Teach(QObject):
             write()
         except OSError as error:
             words = f"{path.name}: {error.strerror or error}."
-            self._ask("The file can not be written", words, (), "problem")
+            self._ask("The file cannot be written", words, (), "problem")
             return False
         return True

@@ -93,7 +93,7 @@ class Tuner(QObject):
         return Wish(asked.axis, asked.step, asked.gains, asked.torque, asked.seconds)
 
     def judge(self, asked: Asked) -> Judged:
-        """Where the axis will go, in its unit, and what ends it; or why it can not."""
+        """Where the axis will go, in its unit, and what ends it; or why it cannot."""
         wish = self.wish(asked)
         wrong = wish.problem or self._not_excited(asked)
         if wrong:
@@ -121,7 +121,7 @@ class Tuner(QObject):
         if page == MODEL:
             return refused(asked.gains, dual)
         if page == AUTOMATIC and asked.drive == UNSURE and refused(asked.gains, dual):
-            return f"Choose the drive mode; it can not be found out here. {refused(asked.gains, dual)}"
+            return f"Choose the drive mode; it cannot be found out here. {refused(asked.gains, dual)}"
         return ""
 
     def _between(self, low: float, high: float, letter: str) -> str:

@@ -69,7 +69,7 @@ class Book(QObject):
             book = self._book = Logbook(file)
             if book.skipped:
                 words = "A line" if book.skipped == 1 else f"{book.skipped} lines"
-                self.said.emit(f"{words} of the logbook {file.name} can not be read and stay as they are.")
+                self.said.emit(f"{words} of the logbook {file.name} cannot be read and stay as they are.")
         return self._book
 
     @property
@@ -151,6 +151,6 @@ class Book(QObject):
         try:
             save(path, measured.capture)
         except OSError as failure:
-            self.said.emit(f"{path.name} can not be written: {failure.strerror or failure}.")
+            self.said.emit(f"{path.name} cannot be written: {failure.strerror or failure}.")
             return
         self.said.emit(f"Saved {path.name}")

@@ -67,7 +67,7 @@ def first_proposed(
     sound = proposed(estimate, None, period, keep, counts, seconds)
     if before is None:
         return sound
-    told = f"The target of last time, {before.crossover / HERTZ:.3g} Hz with {before.phase:.0f}°, can not be reached."
+    told = f"The target of last time, {before.crossover / HERTZ:.3g} Hz with {before.phase:.0f}°, cannot be reached."
     return replace(sound, words=f"{told} {sound.words}".strip())
 
 

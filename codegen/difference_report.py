@@ -81,7 +81,7 @@ def _controller(file: Lines, held: Held, found: tuple[Difference, ...]) -> str:
 
 def _eeprom(held: Held, burned: Burned, found: tuple[Difference, ...]) -> str:
     if burned.program is None:
-        return "What program is in the EEPROM is not known: it can not be read, and this studio has not burned it."
+        return "What program is in the EEPROM is not known: it cannot be read, and this studio has not burned it."
     when = f"as burned from here on {burned.program_when}"
     count = sum(1 for each in found if each.same(1, 2) is False)
     if held.program is None:

@@ -51,7 +51,7 @@ def point_at(name: str, counts: Mapping[str, int], setup: Setup) -> Point:
 
 
 def counts_of(point: Point, setup: Setup, letters: str) -> dict[str, int] | str:
-    """Where the axes go, counts; or why this machine can not go there."""
+    """Where the axes go, counts; or why this machine cannot go there."""
     found = {}
     for place in point.places:
         if place.axis not in letters:
@@ -68,7 +68,7 @@ def counts_of(point: Point, setup: Setup, letters: str) -> dict[str, int] | str:
 
 
 def name_problem(name: str, taken: Iterable[str]) -> str:
-    """Why a point can not be called so, or nothing; small and capital letters make no difference."""
+    """Why a point cannot be called so, or nothing; small and capital letters make no difference."""
     text = name.strip()
     if not text:
         return "Write a name for the point."

@@ -49,7 +49,7 @@ def read_plate(text: str) -> Plate | None:
 
 
 def plate_problem(text: str) -> str:
-    """What is wrong with a plate that can not be read, as a sentence; nothing when it is empty or known."""
+    """What is wrong with a plate that cannot be read, as a sentence; nothing when it is empty or known."""
     if not text.strip() or read_plate(text) is not None:
         return ""
     return f"Type plate: there is no “{text.strip()}”. Write SSC10 to SSC48, or the part number, such as 3600-0247."

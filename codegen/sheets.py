@@ -1,6 +1,6 @@
 """A table as a sheet of cells: what its columns are, and every change a person can make to them.
 
-Cells are texts that `read_table` reads; a change answers the new cells, or in one sentence why it can not be made, and
+Cells are texts that `read_table` reads; a change answers the new cells, or in one sentence why it cannot be made, and
 then nothing has changed.
 """
 
@@ -96,7 +96,7 @@ def csv_of(sheet: Sheet, cells: Cells) -> str:
 
 
 def cell_problem(sheet: Sheet, column: int, text: str) -> str | None:
-    """Why a text can not stand in a cell."""
+    """Why a text cannot stand in a cell."""
     if not text.strip():
         may_be_empty = sheet.steps and column < len(sheet.columns) and sheet.columns[column].letter == INTERVAL
         return None if may_be_empty else "a number is missing"

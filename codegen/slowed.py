@@ -110,7 +110,7 @@ def _interval(argument: Argument, divisor: int) -> Argument:
     return Number(longer * ONE, str(longer))
 
 
-# ------------------------------------------------------- what can not be slowed
+# ------------------------------------------------------- what cannot be slowed
 
 
 def _problems(listing: Listing, setup: Setup, percent: int) -> Iterator[Finding]:
@@ -120,7 +120,7 @@ def _problems(listing: Listing, setup: Setup, percent: int) -> Iterator[Finding]
             yield Finding("", words, "error", "", listing.step_of(number, _column(statement)), "not-slowed")
     bare = _unset(listing, setup)
     if bare:
-        words = f"The program never sets the speed of {' and '.join(bare)}: what the controller has can not be slowed"
+        words = f"The program never sets the speed of {' and '.join(bare)}: what the controller has cannot be slowed"
         yield Finding("", words, rule="not-slowed")
 
 
@@ -134,9 +134,9 @@ def _problem(command: Command, line: str, percent: int) -> str:
     if command.name == "DT" and command.arguments:
         first = command.arguments[0]
         if not isinstance(first, Number):
-            return "The interval of this contour is not known before it runs, so it can not be slowed"
+            return "The interval of this contour is not known before it runs, so it cannot be slowed"
         if _interval(first, FULL // percent) != first and _shown(first, percent) > LONGEST_INTERVAL:
-            return f"This contour can not run at {percent} %: its interval would be longer than DT {LONGEST_INTERVAL}"
+            return f"This contour cannot run at {percent} %: its interval would be longer than DT {LONGEST_INTERVAL}"
     read = READS.search(line) if command.name != "MG" else None
     return f"This works with the speed in the controller (_{read[1]}), which is slowed already" if read else ""
 

@@ -232,7 +232,7 @@ def counts_of(row: Row, setup: Setup) -> tuple[int, int]:
 
 
 def cell_problem(column: str, text: str, setup: Setup) -> str:
-    """Why a text can not stand in a column on this machine, as one sentence, or nothing."""
+    """Why a text cannot stand in a column on this machine, as one sentence, or nothing."""
     text = typed_text(text)
     if not text:
         return ""
@@ -280,7 +280,7 @@ def unfit(table: Table, setup: Setup) -> str:
     ratio = setup.axis("X").scale / setup.axis("Y").scale
     if min(ratio.numerator, ratio.denominator) > COARSEST:
         return (
-            f"X and Y have counts per {table.units[0]} in the ratio {ratio}: lines can not end on whole counts of both."
+            f"X and Y have counts per {table.units[0]} in the ratio {ratio}: lines cannot end on whole counts of both."
         )
     return ""
 
@@ -354,7 +354,7 @@ def _chain_problems(table: Table) -> list[Wrong]:
         if not row.through:
             continue
         if row.wait or row.output or row.pause:
-            found.append(_wrong(number, "through", "it can not go on without a stop and wait or switch an output here"))
+            found.append(_wrong(number, "through", "it cannot go on without a stop and wait or switch an output here"))
         elif not after.moves:
             found.append(_wrong(number, "through", "it can only go on into a row with a place; write x to stop"))
         elif (row.acceleration, row.deceleration) != (after.acceleration, after.deceleration):

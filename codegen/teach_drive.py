@@ -72,7 +72,7 @@ def _round(number: Fraction) -> Fraction:
 
 
 def field_problem(name: str, text: str, setup: Setup) -> str:
-    """Why a text can not stand in a field, or nothing."""
+    """Why a text cannot stand in a field, or nothing."""
     field = fields_of(Driving)[name]
     if text.strip() and (problem := number_problem(text)):
         return f"{field.label}: {problem}"

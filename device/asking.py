@@ -1,7 +1,7 @@
 """Questions of a program: an `IN` takes the next line as its answer, so nothing else may be sent while one waits.
 
 What is sent travels for some milliseconds; a program that is about to reach an `IN` would take a read on its way for
-the answer. So reading goes on only where the listing proves that the program, from where it was last seen, can not
+the answer. So reading goes on only where the listing proves that the program, from where it was last seen, cannot
 reach an `IN` of our port (or live data on it).
 """
 

@@ -71,7 +71,7 @@ def per_axis(name: str) -> bool:
 
 
 def names_in(program: str) -> tuple[list[str], list[str]]:
-    """Variables and arrays a program names, for controllers that can not list theirs (the SSC has no LV, no LA)."""
+    """Variables and arrays a program names, for controllers that cannot list theirs (the SSC has no LV, no LA)."""
     variables: dict[str, None] = {}
     arrays: dict[str, None] = {}
     for line in parse(program).lines:
@@ -153,7 +153,7 @@ def load(path: str | Path) -> Backup:
     except UnicodeDecodeError:
         raise FileUnreadable(f"{path.name} is not a back-up (it is not text)") from None
     except OSError as reason:
-        raise FileUnreadable(f"{path.name} can not be opened: {(reason.strerror or str(reason)).lower()}") from None
+        raise FileUnreadable(f"{path.name} cannot be opened: {(reason.strerror or str(reason)).lower()}") from None
     try:
         return loads(text)
     except FileUnreadable as reason:
@@ -249,7 +249,7 @@ def _numbers(values: object, name: str) -> tuple[Value, ...]:
 
 
 def misfits(backup: Backup, model: Model) -> list[str]:
-    """Why this backup can not go into such a controller, one sentence each; nothing when it can."""
+    """Why this backup cannot go into such a controller, one sentence each; nothing when it can."""
     theirs = MODELS[backup.model]
     if theirs.name == model.name:
         return []
@@ -288,7 +288,7 @@ def _parameter_differences(wanted: Backup, found: Backup, axes: str) -> Iterable
         for place, value in enumerate(values):
             axis = f" of {axes[place]}" if per_axis(name) else ""
             if place >= len(there):
-                yield f"{COMMANDS[name].title}{axis} ({name}) can not be read, the back-up has {number_text(value)}"
+                yield f"{COMMANDS[name].title}{axis} ({name}) cannot be read, the back-up has {number_text(value)}"
             elif abs(there[place] - value) >= resolution(name):
                 other = number_text(there[place])
                 yield f"{COMMANDS[name].title}{axis} ({name}) is {other}, the back-up has {number_text(value)}"

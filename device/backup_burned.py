@@ -19,7 +19,7 @@ FILE = "burned.json"
 
 
 def save_burned(folder: Path, burned: Burned) -> None:
-    """Beside the back-ups of that controller; OSError where it can not be written."""
+    """Beside the back-ups of that controller; OSError where it cannot be written."""
     folder.mkdir(parents=True, exist_ok=True)
     save_text(folder / FILE, dumps(burned))
 

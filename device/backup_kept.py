@@ -31,7 +31,7 @@ class Kept:
 
 
 def controller_name(model: str, identity: Identity | None, simulated: bool = False) -> str:
-    """The folder of one controller. One without a serial number shares it with its like: it can not prove itself."""
+    """The folder of one controller. One without a serial number shares it with its like: it cannot prove itself."""
     serial = identity.serial if identity is not None else None
     number = f"{model} {serial}" if serial else f"{model} without serial number"
     return f"{SIMULATED} {model}" if simulated else number
@@ -65,7 +65,7 @@ def glance(path: Path) -> Kept:
         with path.open("rb") as file:
             head = file.read(HEAD).decode("utf-8-sig", errors="ignore")
     except OSError as reason:
-        return Kept(path, broken=f"can not be opened: {(reason.strerror or str(reason)).lower()}")
+        return Kept(path, broken=f"cannot be opened: {(reason.strerror or str(reason)).lower()}")
     found: dict[str, Any] = {}
     for name, text in re.findall(r'^  "(model|serial|taken|note|reason)": (.*?),?$', head, re.MULTILINE):
         try:

@@ -175,7 +175,7 @@ def most(model: Model, channel_count: int, free: int | None = None) -> int:
 
 
 def objection(plan: Plan, model: Model) -> str:
-    """Why a controller of this type can not carry that out, as one sentence, or nothing."""
+    """Why a controller of this type cannot carry that out, as one sentence, or nothing."""
     known = channels(model)
     missing = [channel.label for channel in plan.channels if channel not in known]
     trigger = plan.trigger
@@ -207,7 +207,7 @@ def _trigger_objection(plan: Plan, model: Model) -> str:
     if trigger.when is When.LEVEL and trigger.channel not in plan.channels:
         return "The level belongs to one of the recorded channels; choose which."
     if trigger.when is When.LEVEL and trigger.channel is not None and not trigger.channel.live_key:
-        return f"{trigger.channel.label} can not be waited for: the controller tells it only in recordings."
+        return f"{trigger.channel.label} cannot be waited for: the controller tells it only in recordings."
     return ""
 
 

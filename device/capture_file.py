@@ -47,7 +47,7 @@ def load(path: str | Path) -> Capture:
     try:
         data = path.read_bytes()
     except OSError as reason:
-        raise FileUnreadable(f"{path.name} can not be opened: {(reason.strerror or str(reason)).lower()}") from None
+        raise FileUnreadable(f"{path.name} cannot be opened: {(reason.strerror or str(reason)).lower()}") from None
     try:
         return _from_numpy(data) if data[:2] == b"PK" else loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
@@ -152,7 +152,7 @@ def _about_of(text: str) -> dict[str, Any]:
     try:
         about = json.loads(text)
     except (ValueError, RecursionError):
-        raise FileUnreadable("the line that says what it is can not be read") from None
+        raise FileUnreadable("the line that says what it is cannot be read") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
         raise FileUnreadable("it does not say that it is one")
     if not isinstance(about.get("version"), int) or about["version"] > VERSION:
@@ -185,7 +185,7 @@ def _capture(
     model = about.get("model")
     texts = {name: about.get(name) for name in ("trigger_text", "controller", "when", "note")}
     if not all(isinstance(text, str) for text in (model, *texts.values())) or (model and model not in MODELS):
-        raise FileUnreadable("what it says about itself can not be read")
+        raise FileUnreadable("what it says about itself cannot be read")
     setup = about.get("setup")
     return Capture(
         channels=channels,

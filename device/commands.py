@@ -194,7 +194,7 @@ def reason(controller: Controller, answer: Answer, expression: str) -> Steps[Lin
     if fenced.kind is Kind.VALUES and "?" in answer.text:
         code = int(fenced.values[0])
         return Refused(
-            code, f"{expression} can not be read here: error {code}, {ERROR_TEXTS.get(code, 'unknown error')}."
+            code, f"{expression} cannot be read here: error {code}, {ERROR_TEXTS.get(code, 'unknown error')}."
         )
     return LinkLost(f"Reading {expression} was disturbed; try again.")
 

@@ -27,7 +27,7 @@ ARRAYS: Final = ("CONFORM", "CONFORM1", "CONFORM2")
 
 
 class Unfit(Exception):
-    """The check can not be made now; the text is one sentence."""
+    """The check cannot be made now; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Report:
         }
         for name in found:
             if name.startswith("typed_message_marked "):
-                found[name] = "CW can not be read back; --cw tells what it is set to"
+                found[name] = "CW cannot be read back; --cw tells what it is set to"
         probed = [name.split(".")[1] for name in self.seen if name.endswith((".high", ".step"))]
         found["commands.*.default"] = FACTORY
         found[f"commands.*.low, high, step except of {' '.join(probed)}"] = "would set what acts on the machine"
@@ -186,13 +186,13 @@ def conform(
     patience_s: float = 3.0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """Makes the check; raises Unfit when it can not be made, TransportLost when the line is lost."""
+    """Makes the check; raises Unfit when it cannot be made, TransportLost when the line is lost."""
     session = Session(Talk(transport, byte_s=byte_s), clock, cw)
     try:
         session.meet(model, address, patience_s)
         session.prepare()
     except Odd as odd:
-        raise Unfit(f"what answers here can not be understood: {odd}") from odd
+        raise Unfit(f"what answers here cannot be understood: {odd}") from odd
     report = Report(session.named, session.model)
     values: dict[str, Value] = {}
     try:

@@ -321,7 +321,7 @@ class Doctor:
         switches = setting_words(self.line.baud or 9600, None)
         return Diagnosis(
             Trouble.GARBAGE,
-            f"What comes from {self.address} can not be read, at none of the speeds a controller can be set to.",
+            f"What comes from {self.address} cannot be read, at none of the speeds a controller can be set to.",
             (
                 f"Set the controller to {self.line.baud or 9600} baud ({switches}) and switch it off and on.",
                 "The line must be 8 bits, no parity, 1 stop bit.",

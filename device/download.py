@@ -76,7 +76,7 @@ def program_lines(listing: str) -> list[str]:
 
 
 def objection(lines: Sequence[str], model: Model | None) -> str:
-    """Why these lines can not be a program there, as one sentence, or nothing."""
+    """Why these lines cannot be a program there, as one sentence, or nothing."""
     for number, line in enumerate(lines):
         if not line.isascii() or any(ord(letter) < 32 for letter in line):
             return f"Line {number} holds a letter the controller does not know: {line.strip()!r}."

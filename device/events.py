@@ -105,7 +105,7 @@ class EventFile:
         return size
 
     def load(self) -> list[Event]:
-        """All events, oldest first; lines that can not be read are left out."""
+        """All events, oldest first; lines that cannot be read are left out."""
         found: dict[int, Event] = {}
         for path in (self.older, self.path):
             for event in _read(path):

@@ -77,7 +77,7 @@ def keep(former: Former) -> None:
         save_text(former.file, json.dumps({**told, "values": dict(former.values)}, indent=1) + "\n")
     except OSError as failure:
         raise NotAllowed(
-            f"Not started: the present values can not be kept in {former.file.parent} "
+            f"Not started: the present values cannot be kept in {former.file.parent} "
             f"({failure.strerror or failure}), so they could not be put back."
         ) from failure
 

@@ -51,7 +51,7 @@ def who(identity: Identity | None, model: Model | None) -> str:
 def mismatch(identity: Identity | None, model: Model | None, setup: Setup) -> str:
     """How the connected controller differs from the one a setup was written for, as one sentence, or nothing.
 
-    A serial number counts where the setup states one; a controller without one (0) can not prove that it is the same.
+    A serial number counts where the setup states one; a controller without one (0) cannot prove that it is the same.
     """
     written = f"The setup was written for {setup.limits.title}"
     wanted = setup.serial_number.strip()

@@ -165,7 +165,7 @@ class Lease:
     _place: int = 0  # commanded position when it was read last
     _seen: float = 0.0
     _velocity: float = 0.0  # measured, counts/s
-    _reason: str = ""  # why it can not be lengthened
+    _reason: str = ""  # why it cannot be lengthened
     _former: tuple[int, ...] = field(default=())
 
     # ------------------------------------------------------- for every thread

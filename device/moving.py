@@ -313,7 +313,7 @@ class Motion:
     def _unsteerable(
         self, speeds: Mapping[str, float], acceleration: Mapping[str, float], deceleration: Mapping[str, float]
     ) -> str:
-        """Why these axes can not be driven."""
+        """Why these axes cannot be driven."""
         c = self._c
         if EXCHANGE * c.line.byte_s > LINE_S:
             return f"driving needs a faster line than {c.line.baud} baud; move by increments."

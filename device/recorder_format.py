@@ -72,7 +72,7 @@ def note_bytes(kind: str, payload: Payload) -> bytes:
 
 
 def note_of(data: bytes) -> tuple[str, Payload]:
-    """The kind of a note and what it says; a payload that can not be read is its bytes."""
+    """The kind of a note and what it says; a payload that cannot be read is its bytes."""
     head, _, rest = data.partition(b"\n")
     kind, way, body = head.decode("utf-8", "replace"), rest[:1], rest[1:]
     if way == b"s":
@@ -121,7 +121,7 @@ class Packer:
 
 
 def find_blocks(data: bytes) -> tuple[list[Block], int]:
-    """The blocks that are whole and can be read, and how many stretches between them can not."""
+    """The blocks that are whole and can be read, and how many stretches between them cannot."""
     found: list[Block] = []
     lost, place, chain, whole = 0, 0, -1, True
     while place < len(data):

@@ -23,7 +23,7 @@ DAMAGE = (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOF
 
 
 class RecordingUnreadable(Exception):
-    """It can not be opened; the text is the sentence to show."""
+    """It cannot be opened; the text is the sentence to show."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class Recording:
         if not self.lost:
             return ""
         pieces = "A piece" if self.lost == 1 else f"{self.lost} pieces"
-        return f"{pieces} of {self.name or 'this recording'} can not be read; what is whole is played."
+        return f"{pieces} of {self.name or 'this recording'} cannot be read; what is whole is played."
 
     def at(self, place: float) -> float:
         """The time of day at a place, in seconds since 1970."""
@@ -147,7 +147,7 @@ def open_recording(path: Path) -> Recording:
             raise RecordingUnreadable(f"{path.name} is larger than any recording this program writes.")
         data = _bundled(path) if zipfile.is_zipfile(path) else path.read_bytes()
     except OSError as reason:
-        raise RecordingUnreadable(f"{path.name} can not be opened: {reason.strerror or reason}.") from reason
+        raise RecordingUnreadable(f"{path.name} cannot be opened: {reason.strerror or reason}.") from reason
     except DAMAGE as reason:
         raise RecordingUnreadable(f"{path.name} is a damaged bundle; ask for it again.") from reason
     recording = Recording(data, path.name)

@@ -18,7 +18,7 @@ class LinkError(Exception):
 
 
 class LinkLost(LinkError):
-    """The controller can not be reached or does not answer."""
+    """The controller cannot be reached or does not answer."""
 
 
 class Stopped(LinkError):
@@ -99,7 +99,7 @@ class Task(Generic[T]):
 
 
 def data_line(text: str) -> bytes:
-    """A line as it is sent; raises NotAllowed for what can not be typed."""
+    """A line as it is sent; raises NotAllowed for what cannot be typed."""
     try:
         return text.encode("ascii") + b"\r"
     except UnicodeEncodeError as reason:

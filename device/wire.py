@@ -88,7 +88,7 @@ class Kind(Enum):
     VALUES = "values"
     ACCEPTED = "accepted"
     REFUSED = "refused"
-    UNCERTAIN = "uncertain"  # something came, but it can not be told apart from a program's text
+    UNCERTAIN = "uncertain"  # something came, but it cannot be told apart from a program's text
     SILENT = "silent"  # nothing came
 
 

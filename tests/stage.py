@@ -168,7 +168,7 @@ class Stage:
         return rig
 
     def clear_away(self) -> None:
-        """The end: nothing of the studio stays in memory, though slots are referred to where Python can not see it."""
+        """The end: nothing of the studio stays in memory, though slots are referred to where Python cannot see it."""
         self.studio.close()
         self.studio.window.hide()
         for each in parts_of(self.studio):

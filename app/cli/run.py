@@ -137,7 +137,7 @@ def loaded_simulation(
         simulation.execute(entry_of(entry))
     except CommandError as refused:
         reason = ERROR_TEXTS.get(refused.code, f"error {refused.code}")
-        raise Failure(f"{loaded.path}: can not start at {entry or 'line 0'}: {reason}") from refused
+        raise Failure(f"{loaded.path}: cannot start at {entry or 'line 0'}: {reason}") from refused
     return simulation
 
 

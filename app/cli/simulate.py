@@ -69,7 +69,7 @@ def simulate(options: argparse.Namespace) -> int:
         line = open_line(pty=options.pty, tcp=tcp)
         second = open_second(port2) if port2 else None
     except OSError as problem:
-        raise Failure(f"can not listen on {tcp or 'a pseudo-terminal'}: {problem.strerror}") from problem
+        raise Failure(f"cannot listen on {tcp or 'a pseudo-terminal'}: {problem.strerror}") from problem
     make = maker(
         model(name),
         plants,

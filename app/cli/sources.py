@@ -196,7 +196,7 @@ def complete(path: Path, text: str, listing: Listing | None) -> None:
 def of_two_letters(name: str, path: Path) -> Model:
     """The controller's model; SmartMotor source is another language."""
     if name == "smartmotor" or path.suffix.lower() == ".sms":
-        raise Failure(f"{path}: SmartMotor code can not be written, checked or run yet")
+        raise Failure(f"{path}: SmartMotor code cannot be written, checked or run yet")
     return model(name)
 
 

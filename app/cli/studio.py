@@ -74,7 +74,7 @@ def open_studio(arguments: list[str]) -> int:
         from app.studio import run_studio
     except ImportError as missing:
         raise Failure(
-            f"the windows can not be loaded ({missing}); run ./studio, it installs what is missing"
+            f"the windows cannot be loaded ({missing}); run ./studio, it installs what is missing"
         ) from missing
 
     return run_studio(path, connect)

@@ -140,7 +140,7 @@ def judge_encoder(seen: Turned, typed: str, axis: Axis) -> Finding:
         return Finding(FAILED, words, ENCODER_CAUSES, facts)
     distance = parse_number(typed)
     if distance is None or not distance:
-        return Finding(OPEN, f"Distance moved: {number_problem(typed) or 'it can not be 0'}.", (), facts)
+        return Finding(OPEN, f"Distance moved: {number_problem(typed) or 'it cannot be 0'}.", (), facts)
     if abs(seen.moved) < FEW:
         return Finding(OPEN, f"It moved by {seen.moved} counts only; move it further.", (), facts)
     found = Fraction(seen.moved) / distance
@@ -318,7 +318,7 @@ def judge_scale(moved: Moved, asked: str, typed: str, axis: Axis) -> Finding:
         return Finding(FAILED, f"The move did not end at its target{_stopped(moved)}.", WEAK, facts)
     measured = parse_number(typed)
     if measured is None or not measured:
-        return Finding(OPEN, f"Measured: {number_problem(typed) or 'it can not be 0'}.", (), facts)
+        return Finding(OPEN, f"Measured: {number_problem(typed) or 'it cannot be 0'}.", (), facts)
     facts = (*facts, ("Distance", f"{asked} {axis.symbol}"), ("Measured", f"{typed.strip()} {axis.symbol}"))
     found = Fraction(moved.end - moved.start) / measured
     if found < 0:

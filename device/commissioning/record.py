@@ -107,12 +107,12 @@ def keep(record: Record, folder: Path) -> str:
         folder.mkdir(parents=True, exist_ok=True)
         save_text(folder / record.name, json.dumps(told, indent=1) + "\n")
     except OSError as failure:
-        return f"The findings can not be kept in {folder} ({failure.strerror or failure})."
+        return f"The findings cannot be kept in {folder} ({failure.strerror or failure})."
     return ""
 
 
 def resumed(folder: Path, axis: str, model: str, serial: int) -> Record:
-    """What was kept of this axis; a fresh record where nothing was, or where it can not be read."""
+    """What was kept of this axis; a fresh record where nothing was, or where it cannot be read."""
     fresh = Record(axis, model, serial)
     try:
         told = json.loads((folder / fresh.name).read_text(encoding="utf-8"))

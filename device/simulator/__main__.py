@@ -105,7 +105,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         line = open_line(pty=options.pty, tcp=options.tcp)
         second = open_second(options.port2) if options.port2 else None
     except (OSError, ValueError) as reason:
-        print(f"twoletter: can not listen ({getattr(reason, 'strerror', None) or reason})", file=sys.stderr)
+        print(f"twoletter: cannot listen ({getattr(reason, 'strerror', None) or reason})", file=sys.stderr)
         return 2
     serve(make, line, second=second, control=options.control, fault=Fault(options.fault))
     return 0

@@ -137,7 +137,7 @@ def _set_up(simulation: Simulation, place: int, *, last: bool) -> None:
         try:
             unit.eeprom.burn(parameters=burned.parameters(unit))
         except OSError as reason:
-            unit.notice(f"the EEPROM file can not be written: {reason.strerror or reason}")
+            unit.notice(f"the EEPROM file cannot be written: {reason.strerror or reason}")
     unit.choose_at_start()
     simulation.port.passing = _passes_on(simulation)
 

@@ -46,7 +46,7 @@ CHOICES: dict[str, tuple[str, ...]] = {
 
 
 class PlantUnreadable(Exception):
-    """A plant file that can not be used; the text is one sentence."""
+    """A plant file that cannot be used; the text is one sentence."""
 
 
 def number(key: str, value: Any) -> float:

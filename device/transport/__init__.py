@@ -69,7 +69,7 @@ class Wired(Protocol):
     """A line that has handshake wires."""
 
     def clear_to_send(self) -> bool | None:
-        """Whether the other end lets us send (CTS); None where the port can not tell."""
+        """Whether the other end lets us send (CTS); None where the port cannot tell."""
         ...
 
 

@@ -58,7 +58,7 @@ class Tcp:
         return 0
 
     def discard_output(self) -> None:
-        """A socket can not take back what was sent; the writer keeps it short instead."""
+        """A socket cannot take back what was sent; the writer keeps it short instead."""
 
     def close(self) -> None:
         with contextlib.suppress(OSError):

@@ -48,7 +48,7 @@ class Design:
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why a target can not be reached, and the nearest that can."""
+    """Why a target cannot be reached, and the nearest that can."""
 
     reason: str
     nearest: Design | None
@@ -150,7 +150,7 @@ def hertz(crossover: float) -> str:
 
 
 def no_lead(case: Known, target: Target, at: complex) -> str:
-    """Why the phase can not be had."""
+    """Why the phase cannot be had."""
     lag = -degrees(at)
     causes = ["the hold of the sample"]
     if case.plant.delay > 0.2 * case.period:
@@ -164,7 +164,7 @@ def no_lead(case: Known, target: Target, at: complex) -> str:
 
 
 def too_much_phase(case: Known, target: Target, at: complex) -> str:
-    """Why less margin can not be had."""
+    """Why less margin cannot be had."""
     has = 180.0 + degrees(at)
     return (
         f"At {hertz(target.crossover)} the axis has {has:.0f}° of margin with KP alone"

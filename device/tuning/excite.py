@@ -47,10 +47,10 @@ class NotIdentified:
 
 
 def refused(gains: Gains, dual: bool) -> str:
-    """Why an axis can not be excited to be identified, or nothing."""
+    """Why an axis cannot be excited to be identified, or nothing."""
     if dual:
         return (
-            "An axis that works with a dual loop (DV 1) can not be identified: its damping comes from the other "
+            "An axis that works with a dual loop (DV 1) cannot be identified: its damping comes from the other "
             "encoder. Tune it automatically or by hand."
         )
     if gains.kd < LEAST_KD:

@@ -76,7 +76,7 @@ class Guard:
 
 
 def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], Steps[T]], now: datetime) -> Steps[T]:
-    """Narrows, runs `body`, puts back; what can not be put back now stays on disk."""
+    """Narrows, runs `body`, puts back; what cannot be put back now stays on disk."""
     with taken(c, f"axis {guard.axis} is being tuned. Wait for its end, or cancel it."):
         former = yield from _begin(c, guard, folder, now)
         began = c.clock()

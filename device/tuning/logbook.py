@@ -22,7 +22,7 @@ class Logbook:
         self._load()
 
     def add(self, entry: Entry) -> Entry:
-        """Keeps a run under the next number; raises OSError where the file can not be written."""
+        """Keeps a run under the next number; raises OSError where the file cannot be written."""
         kept = dc.replace(entry, number=max((each.number for each in self.entries), default=0) + 1)
         self._append({"run": to_data(kept)})
         self.entries += (kept,)

@@ -169,7 +169,7 @@ def jumps(errors: Vector, sizes: tuple[int, ...]) -> list[int] | None:
 
 
 def commanded(recording: Recording, errors: Vector) -> Vector | str:
-    """The commanded position of every sample, from its first place; a sentence where the jumps can not be found."""
+    """The commanded position of every sample, from its first place; a sentence where the jumps cannot be found."""
     if recording.position is not None:
         even = recording.position + errors[::2]
         found = numpy.repeat(even, 2)[: len(errors)].astype(float)
@@ -191,10 +191,10 @@ def commanded(recording: Recording, errors: Vector) -> Vector | str:
 
 
 def every_sample(recording: Recording) -> Samples | NotIdentified:
-    """Torque and place of every sample; the reason where they can not be told."""
+    """Torque and place of every sample; the reason where they cannot be told."""
     wrong_from_start = objection(recording)
     if wrong_from_start:
-        return NotIdentified("The excitation can not be used: " + wrong_from_start)
+        return NotIdentified("The excitation cannot be used: " + wrong_from_start)
     found, count = every_error(recording), len(recording.error)
     if found.wrong > max(3, BAD_PART * count):
         return NotIdentified(
@@ -210,7 +210,7 @@ def every_sample(recording: Recording) -> Samples | NotIdentified:
     errors = found.values
     places = commanded(recording, errors)
     if isinstance(places, str):
-        return NotIdentified("The excitation can not be used: " + places)
+        return NotIdentified("The excitation cannot be used: " + places)
     gains, before = recording.gains, numpy.concatenate([errors[:1], errors[:-1]])
     volts = VOLTS * (4.0 * gains.kp * errors + 4.0 * gains.kd * (errors - before)) + found.integrals
     volts = numpy.clip(volts, -gains.torque_limit, gains.torque_limit)

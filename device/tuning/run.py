@@ -133,7 +133,7 @@ def _begin(c: Controller, wish: Wish, folder: Path, now: datetime, body: Callabl
 def present_steps(c: Controller, axis: str) -> Steps[Present]:
     model = c.model
     if model is None or axis not in model.axes or c.resting():
-        raise NotAllowed(c.resting() or f"The gains can not be read: this controller has no axis {axis}.")
+        raise NotAllowed(c.resting() or f"The gains cannot be read: this controller has no axis {axis}.")
     names = [*ALL, *LIMITED_BY, "MO", "DV"]
     found = yield from exact(c.nonces, [*(f"_{name}{axis}" for name in names), "_TM"], model.columns)
     values = {name: value or 0 for name, value in zip([*names, "TM"], found, strict=True)}

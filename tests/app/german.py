@@ -144,7 +144,7 @@ def walk_terminal(stage: Stage) -> None:
 
 
 def walk_answers(stage: Stage) -> None:
-    """What a program asks for: 12,5 can not be sent, 12.5 is 12.5."""
+    """What a program asks for: 12,5 cannot be sent, 12.5 is 12.5."""
     rig = stage.question("simulator", "ssc1")
     stage.go(10)
     box = stage.studio.window.prompt

@@ -196,7 +196,7 @@ class Keys(Hands):
             if menu.activeAction() is action:
                 break
             QTest.keyClick(menu, Qt.Key.Key_Down)
-        assert menu.activeAction() is action, f"{action.text()} can not be reached with the arrows"
+        assert menu.activeAction() is action, f"{action.text()} cannot be reached with the arrows"
         QTest.keyClick(menu, Qt.Key.Key_Return)
         QApplication.processEvents()
 
@@ -252,7 +252,7 @@ class Keys(Hands):
         assert button.isChecked(), f"arrows do not choose {button.text()}"
 
     def go_to(self, wanted: QWidget) -> None:
-        """Tab until the widget has the focus; one that can not be reached so fails."""
+        """Tab until the widget has the focus; one that cannot be reached so fails."""
         wanted = wanted.focusProxy() or wanted
         top = wanted.window()
         activate(top)

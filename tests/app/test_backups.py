@@ -123,7 +123,7 @@ def test_where_nothing_can_be_kept_the_download_asks(stage: Stage, tmp_path: Pat
     stage.studio.run.download()
     stage.until(lambda: stage.studio.desk.question is not None)
     words, answers = asked(stage)
-    assert "The back-up can not be written" in words and answers == ["Go on with the download"]
+    assert "The back-up cannot be written" in words and answers == ["Go on with the download"]
     assert rig.program == OLD.split("\n")
     answer(stage, "Go on with the download")
     idle(stage)

@@ -1,4 +1,4 @@
-"""The file of saved points: one for each machine, written whole, and never over what can not be read."""
+"""The file of saved points: one for each machine, written whole, and never over what cannot be read."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_a_folder_that_can_not_be_written_to_loses_nothing(tmp_path: Path) -> No
     (tmp_path / "points").write_text("a file, not a folder", encoding="utf-8")
     points = Points(tmp_path / "points")
     points.open(OTHER)
-    assert "can not be saved" in points.save_here("A", {"X": 1}, OTHER) or points.points == ()
+    assert "cannot be saved" in points.save_here("A", {"X": 1}, OTHER) or points.points == ()
     assert points.points == ()
 
 

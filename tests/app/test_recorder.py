@@ -116,7 +116,7 @@ def test_nothing_is_sent_and_there_is_nothing_to_stop(stage: Stage) -> None:
     wait(stage, lambda: "recording" in studio.terminal.log.toPlainText())
     for title in studio.window.docks if is_long() else ("Display", "Jog", "Variables"):
         press_everything(stage, title)
-    for title in ("Jog", "Tuner", "Operator terminal"):  # Control can not be taken: nobody is told to
+    for title in ("Jog", "Tuner", "Operator terminal"):  # Control cannot be taken: nobody is told to
         reason = studio.window.docks[title].content.reason
         assert reason == "This is a recording: it can only be watched, nothing is sent."
     QTest.keyClick(studio.window, Qt.Key.Key_F12)
@@ -325,4 +325,4 @@ def test_what_can_not_be_opened_is_said(stage: Stage, tmp_path: Path) -> None:
     saved.write_bytes(data)
     studio.at_machine.recorded.open_path(saved)
     wait(stage, lambda: stage.controller.kind is Kind.REPLAY)
-    assert panel_of(stage).problem.text() == "A piece of day.tape can not be read; what is whole is played."
+    assert panel_of(stage).problem.text() == "A piece of day.tape cannot be read; what is whole is played."

@@ -218,7 +218,7 @@ def test_a_file_that_is_none_changes_nothing_and_new_asks_before_it_throws_away(
     for text in (b"{", b'{"format": "twoletter setup", "version": 99}', b"\x00\xff"):
         (tmp_path / "bad.tls").write_bytes(text)
         stage.studio.setup.file.open_path(tmp_path / "bad.tls")
-        question = asked(stage, "The setup can not be opened")
+        question = asked(stage, "The setup cannot be opened")
         assert "\n" not in question.words and question.words.endswith(".") and window.setup == before
         click(stage, question.findChildren(QAbstractButton)[0])
     fill(window.controller.name, "Half done")

@@ -30,7 +30,7 @@ def test_the_slowed_program_is_sent_and_runs_after_asking(stage: Stage) -> None:
     stage.until(lambda: stage.studio.desk.question is not None)
     words, answers = asked(stage)
     assert "every speed at 25 %" in words
-    assert "can not be burned" in words
+    assert "cannot be burned" in words
     assert answers == ["Download and execute at 25 %"]
     assert rig.program == []
     answer(stage, "Download and execute at 25 %")

@@ -257,7 +257,7 @@ def test_a_dual_loop_is_tuned_from_the_panel_and_not_identified(stage: Stage) ->
     panel = tuner(stage, plants={"X": MACHINES["play, dry"]})
     stage.rig.type("DVX=1")
     click(panel.buttons[MODEL])
-    stage.until(lambda: "dual loop (DV 1) can not be identified" in panel.box.words.text())
+    stage.until(lambda: "dual loop (DV 1) cannot be identified" in panel.box.words.text())
     stage.go()
     assert not panel.box.begin.isEnabled() and not panel.box.free.isEnabled()
     click(panel.buttons[AUTOMATIC])

@@ -1,4 +1,4 @@
-"""A program at a part of its speed: the same places and paths, longer times, and what can not be slowed is refused."""
+"""A program at a part of its speed: the same places and paths, longer times, and what cannot be slowed is refused."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def test_compact_lines_are_scaled_piece_by_piece() -> None:
         (["SP 100", "PR 1", "BG X", "BN"], "burns into the EEPROM"),
         (["SP 100", "SP _SPX*2"], "_SP"),
         (["DT V1"], "not known before it runs"),
-        (["DT 8"], "can not run at 50 %"),
+        (["DT 8"], "cannot run at 50 %"),
     ],
 )
 def test_what_can_not_be_slowed_is_refused_in_a_sentence(lines: list[str], words: str) -> None:

@@ -66,7 +66,7 @@ INCHES = dc.replace(AXIS, unit=Unit.INCH, counts_per_unit="8000", reverse_limit=
         (1, "sweep", "90", "Row 2: the first place is approached on a straight way; write x for Arc."),
         (2, "sweep", "351", "Row 3: Arc must lie between -350 and 350 °."),
         (3, "sweep", "-300", "Row 4: its arc leaves the travel of X, -50 to 200."),
-        (2, "through", "on", "Row 3: it can not go on without a stop and wait or switch an output here."),
+        (2, "through", "on", "Row 3: it cannot go on without a stop and wait or switch an output here."),
         (3, "through", "on", "Row 4: it can only go on into a row with a place; write x to stop."),
     ],
 )

@@ -84,7 +84,7 @@ def test_a_spreadsheet_finds_times_counts_and_units() -> None:
         (lambda text: text.replace("9.9998", "9,9998"), "line 3 has 6 numbers, 5 belong there"),
         (lambda text: text.replace("9.9998", "9_9998"), "line 3: “9_9998” is not a number"),
         (lambda text: text.replace("9.9998", "٩"), "is not a number"),
-        (lambda text: text[:200], "can not be read"),
+        (lambda text: text[:200], "cannot be read"),
     ],
 )
 def test_a_damaged_text_is_one_sentence(harm, words: str, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
@@ -103,5 +103,5 @@ def test_a_damaged_numpy_file_is_one_sentence(tmp_path: Path) -> None:
         path.write_bytes(data)
         with pytest.raises(FileUnreadable, match=r"x\.npz is not a capture"):
             load(path)
-    with pytest.raises(FileUnreadable, match="can not be opened"):
+    with pytest.raises(FileUnreadable, match="cannot be opened"):
         load(tmp_path / "none.csv")

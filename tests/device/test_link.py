@@ -156,7 +156,7 @@ def test_offline_everything_fails_with_a_sentence() -> None:
 
 
 def test_at_most_thirty_two_bytes_wait_in_the_system() -> None:
-    """At 9600 baud a byte takes 1.04 ms; what was handed over and can not have left yet is never more than 32 bytes."""
+    """At 9600 baud a byte takes 1.04 ms; what was handed over and cannot have left yet is never more than 32 bytes."""
     transport = Scripted(*HELLO)
     written: list[tuple[float, int]] = []
     write = transport.write

@@ -22,7 +22,7 @@ from tests.long import count, record
 
 
 def blocks_of(amount: int, size: int = 2000) -> bytes:
-    """Blocks of one record each, ten seconds apart; what they hold can not be compressed away."""
+    """Blocks of one record each, ten seconds apart; what they hold cannot be compressed away."""
     packer = Packer()
     return b"".join(
         packer.pack([Record(WALL + 10 * n, What.RECEIVED, 1, bytes((n * 7 + k * k) % 251 for k in range(size)))])
@@ -40,7 +40,7 @@ def test_damage_takes_only_what_it_hit(tmp_path: Path) -> None:
     hurt[fresh[1].start + 5] ^= 0x40  # one bit
     recording = Recording(bytes(hurt), "monday.tape")
     left = [each.record for each in recording.records()]
-    assert recording.problem == "A piece of monday.tape can not be read; what is whole is played."
+    assert recording.problem == "A piece of monday.tape cannot be read; what is whole is played."
     begin = next(n for n, each in enumerate(clean) if each.at >= fresh[1].first)
     end = next(n for n, each in enumerate(clean) if each.at >= fresh[2].first)
     assert left == clean[:begin] + clean[end:]

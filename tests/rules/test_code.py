@@ -112,7 +112,7 @@ def asserts(function: Function, helpers: frozenset[str] = frozenset()) -> bool:
 
 
 def idle_tests(tree: ast.Module) -> list[tuple[int, str]]:
-    """Tests that can not fail."""
+    """Tests that cannot fail."""
     functions = [node for node in ast.walk(tree) if isinstance(node, Function)]
     helpers = frozenset(node.name for node in functions if not node.name.startswith("test_") and asserts(node))
     return [

@@ -45,7 +45,7 @@ class Tick:
 
 @dataclass(frozen=True)
 class Act:
-    """A button; grey with the reason where it can not be pressed now. `moves`: something moves when it is pressed."""
+    """A button; grey with the reason where it cannot be pressed now. `moves`: something moves when it is pressed."""
 
     name: str
     label: str

@@ -61,7 +61,7 @@ class CommissioningWindow(QDialog):
         self._join()
 
     def show_machine(self, axes: str, axis: str, who: str, sine: bool | None) -> None:
-        """Which axes there are; `sine` None where the controller can not commutate."""
+        """Which axes there are; `sine` None where the controller cannot commutate."""
         if [self.axis.itemText(row) for row in range(self.axis.count())] != list(axes):
             self.axis.blockSignals(True)
             self.axis.clear()

@@ -282,7 +282,7 @@ class GridEditor(QWidget):
         ask_open(self, "Open a table", TABLES, self.read_file)
 
     def read_file(self, path: Path) -> None:
-        """The table of a file, or why it can not be read."""
+        """The table of a file, or why it cannot be read."""
         try:
             data = path.read_bytes() if path.stat().st_size <= LARGEST_FILE else b""
             text = data.decode("utf-8-sig")

@@ -78,7 +78,7 @@ def home(item: OneAxis, setup: Setup, routine: jog.Routine) -> jog.Plan:
 
 
 def pace_at(axis: str, speed: str, setup: Setup) -> Pace | str:
-    """Of a kept speed, with ramps that reach it in a quarter of a second; or why it can not be driven."""
+    """Of a kept speed, with ramps that reach it in a quarter of a second; or why it cannot be driven."""
     number = parse_number(speed)
     low, top = setup.bounds(Dimension.SPEED, axis)
     if number is None or number <= 0:

@@ -19,6 +19,6 @@ class Pieces:
         return self.done
 
     def finish(self) -> None:
-        """All that is left, for whoever can not wait for the ticks."""
+        """All that is left, for whoever cannot wait for the ticks."""
         while not self.step():
             pass

@@ -157,7 +157,7 @@ class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
 
     def _write(self, picture: QPixmap, path: Path) -> None:
         if not picture.save(str(path)):
-            Question("The picture was not saved", f"{path} can not be written; choose another folder.", [], self).show()
+            Question("The picture was not saved", f"{path} cannot be written; choose another folder.", [], self).show()
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)

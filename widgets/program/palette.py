@@ -89,7 +89,7 @@ class Palette(QWidget):
     # ---- what is offered
 
     def show_setup(self, setup: Setup) -> None:
-        """Greys what this machine's controller can not do, with the reason."""
+        """Greys what this machine's controller cannot do, with the reason."""
         for kind in ALL:
             reason = read.cannot(kind, setup)
             item = self.items[kind.title]

@@ -1,4 +1,4 @@
-"""What can be done to the program now; what can not says why."""
+"""What can be done to the program now; what cannot says why."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ USUAL = (Channel("position", "X"), Channel("commanded", "X"), None, None)
 
 
 class Choices(QWidget):
-    """The column of choices; `plan` is what they ask for, `problem` why it can not be done."""
+    """The column of choices; `plan` is what they ask for, `problem` why it cannot be done."""
 
     changed = Signal()
 
@@ -118,7 +118,7 @@ class Choices(QWidget):
 
     @property
     def problem(self) -> str:
-        """Why this can not be captured, as one sentence, or nothing."""
+        """Why this cannot be captured, as one sentence, or nothing."""
         if self._model is None:
             return "Which controller it is, is not known."
         if self.when is When.LEVEL and (words := number_problem(self.level.text())):

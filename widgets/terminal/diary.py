@@ -9,7 +9,7 @@ from typing import IO
 
 
 class Diary:
-    """Adds to a file, line by line; ends by itself when it can not be written any more."""
+    """Adds to a file, line by line; ends by itself when it cannot be written any more."""
 
     def __init__(self, wall: Callable[[], time.struct_time] = time.localtime) -> None:
         self._wall = wall
@@ -28,7 +28,7 @@ class Diary:
         try:
             self._file = path.open("a", encoding="utf-8", newline="\n", buffering=1)
         except OSError as reason:
-            self.problem = f"{path} can not be written: {reason.strerror or reason}."
+            self.problem = f"{path} cannot be written: {reason.strerror or reason}."
             return False
         self.path = path
         self.add("---", f"log of {time.strftime('%Y-%m-%d', self._wall())}")

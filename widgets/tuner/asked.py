@@ -26,7 +26,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Judged:
-    """What would happen, as a sentence, or why it can not."""
+    """What would happen, as a sentence, or why it cannot."""
 
     words: str
     problem: str = ""

@@ -43,7 +43,7 @@ class UnsavedWork(QDialog):
         self.recover, self.forget, self.later = QPushButton("Recover"), QPushButton("Throw away"), QPushButton("Later")
         self.recover.setProperty("role", "primary")
         self.recover.setDefault(True)
-        self.forget.setToolTip("Asks first: what is thrown away can not be brought back.")
+        self.forget.setToolTip("Asks first: what is thrown away cannot be brought back.")
         self.recover.clicked.connect(lambda: self.recover_wanted.emit(self.list.currentRow()))
         self.list.itemActivated.connect(lambda _: self.recover_wanted.emit(self.list.currentRow()))
         self.forget.clicked.connect(lambda: self.forget_wanted.emit(self.list.currentRow()))

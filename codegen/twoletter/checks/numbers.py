@@ -67,7 +67,7 @@ def places_of(command: Command, row: Row, model: Model) -> Iterator[tuple[Row | 
 
 
 def in_range(place: Row | Field, value: Expression, model: Model) -> Iterator[Problem]:
-    """A constant outside the limits, or one the register can not keep."""
+    """A constant outside the limits, or one the register cannot keep."""
     scaled = constant(value)
     if scaled is None:
         return

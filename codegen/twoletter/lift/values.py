@@ -49,7 +49,7 @@ def arguments_by_axis(command: Command) -> Mapping[str, Argument]:
 
 
 def per_axis(command: Command, setup: Setup, dimension: Dimension | None = None) -> PerAxisText | None:
-    """The values of a command at the places of their axes; None where one can not be typed."""
+    """The values of a command at the places of their axes; None where one cannot be typed."""
     if len(command.arguments) > len(AXES) or command.axis is not None:
         return None
     given = arguments_by_axis(command)

@@ -152,7 +152,7 @@ def compiled_loop() -> Loop:
         import numba
         from numba.extending import register_jitable
     except ImportError as missing:
-        raise CompilerMissing(f"numba can not be loaded: {missing}") from missing
+        raise CompilerMissing(f"numba cannot be loaded: {missing}") from missing
     register_slots()
     for name in MODULES:
         module = importlib.import_module(f"{PACKAGE}.{name}")
@@ -168,7 +168,7 @@ def compiled_loop() -> Loop:
         signature = numba.int64(numba.float64[::1], numba.float64[::1], numba.int64)
         compiled: Loop = numba.njit(signature, nogil=True, cache=folder is not None)(loop.run)
     except numba.core.errors.NumbaError as wrong:
-        raise CompilerMissing(f"numba can not compile the sample loop: {str(wrong).splitlines()[0]}") from wrong
+        raise CompilerMissing(f"numba cannot compile the sample loop: {str(wrong).splitlines()[0]}") from wrong
     finally:
         settings.CACHE_DIR = before
     return compiled

@@ -134,7 +134,7 @@ class Idling:
     # ---------------------------------------------------------------- before
 
     def _plan(self, threads: Sequence[Thread], index: int, at: int) -> Plan | None:
-        """The ways of all threads and what they set; None or Restless where it can not be foretold."""
+        """The ways of all threads and what they set; None or Restless where it cannot be foretold."""
         unit = self._unit
         if self._code is not unit.code or self._halls != unit.hall_mask:
             self._code, self._halls, self._steps = unit.code, unit.hall_mask, steps_of(unit.code, unit)

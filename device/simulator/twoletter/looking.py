@@ -1,4 +1,4 @@
-"""What a condition looks at, and in which range of it the condition can not change."""
+"""What a condition looks at, and in which range of it the condition cannot change."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ COMPARES: Final = {"<": ">", ">": "<", "=": "=", "<=": ">=", ">=": "<=", "<>": "
 
 
 def looks(expression: Expression, unit: Unit) -> tuple[Look, ...] | None:
-    """Everything a condition depends on; None for what can not be waited for."""
+    """Everything a condition depends on; None for what cannot be waited for."""
     match expression:
         case Number() | String() | Variable():
             return ()

@@ -91,7 +91,7 @@ class Profile(MotionSettings):
 
 
 class ProfileWrong(ValueError):
-    """A setting that is not known or a value that it can not have; the text is one sentence."""
+    """A setting that is not known or a value that it cannot have; the text is one sentence."""
 
 
 SETTINGS: Final[dict[str, Setting]] = {
@@ -156,7 +156,7 @@ def check_change(name: str, change: Change) -> None:
         raise ProfileWrong(f"there is no command {name}")
     for key, value in change.items():
         if key not in CHANGED or (key == "reply" and row.reply in (None, "PF")) or getattr(row, key) is None:
-            raise ProfileWrong(f"{key} of {name} can not be corrected")
+            raise ProfileWrong(f"{key} of {name} cannot be corrected")
         if key == "reply":
             whole, _, decimals = str(value).partition(".")
             fits = isinstance(value, str) and whole.isdecimal() and decimals in "01234" and 0 < int(whole) <= 10

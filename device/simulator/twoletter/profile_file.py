@@ -28,7 +28,7 @@ def load_profile(path: Path) -> Profile:
 
 
 def read_profile(text: str, name: str = "profile") -> Profile:
-    """A profile from its text; unknown settings and values they can not have are refused."""
+    """A profile from its text; unknown settings and values they cannot have are refused."""
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as reason:

@@ -35,7 +35,7 @@ class LanguageSettings(LineSettings):
         unit="variables",
         low=1,
         high=1000,
-        unseen="how many are in use can not be asked",
+        unseen="how many are in use cannot be asked",
     )
 
     # ---------------------------------------------------------- expressions

@@ -79,7 +79,7 @@ class MotionSettings(LanguageSettings):
         unseen=LIMITS,
     )
     begins_as_a_whole: bool = fact(
-        True, "BG of several axes starts none when one can not start", "inferred", unseen=MOTION
+        True, "BG of several axes starts none when one cannot start", "inferred", unseen=MOTION
     )
     home_speed: str = fact(
         "SP",

@@ -131,7 +131,7 @@ def _line_or_label(target: Target, code: Code) -> int | None:
 
 
 def tests_of(condition: Expression, writes: Mapping[str, Write], unit: Unit) -> list[Test]:
-    """All forms of a condition whose variables are set meanwhile; Restless where one of them can not be waited for."""
+    """All forms of a condition whose variables are set meanwhile; Restless where one of them cannot be waited for."""
     found = []
     for form in forms(condition, writes):
         test = _test(form, unit)

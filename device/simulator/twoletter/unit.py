@@ -301,7 +301,7 @@ class Unit:
         try:
             self.eeprom.erase()
         except OSError as reason:
-            self.notice(f"the EEPROM file can not be written: {reason.strerror or reason}")
+            self.notice(f"the EEPROM file cannot be written: {reason.strerror or reason}")
         reset.begin(self)
 
     def open_port_two(self) -> None:

@@ -54,7 +54,7 @@ def turned(*counts: int) -> Turned:
         ),
         ((0, 5), "5", Verdict.OPEN, "move it further"),
         ((0, 5000), "", Verdict.OPEN, "a number is missing"),
-        ((0, 5000), "0", Verdict.OPEN, "can not be 0"),
+        ((0, 5000), "0", Verdict.OPEN, "cannot be 0"),
         ((0, 5000), "2,5", Verdict.OPEN, "write 2.5"),
         ((), "5", Verdict.OPEN, "Begin"),
     ],
@@ -223,7 +223,7 @@ def test_the_record_is_taken_up_again(tmp_path: Path) -> None:
     assert resumed(tmp_path, "Y", "ssc2", 4711) == Record("Y", "ssc2", 4711)
     (tmp_path / record.name).write_text("{half", encoding="utf-8")
     assert resumed(tmp_path, "X", "ssc2", 4711) == Record("X", "ssc2", 4711)
-    assert "can not be kept" in keep(record, tmp_path / record.name)
+    assert "cannot be kept" in keep(record, tmp_path / record.name)
 
 
 def test_a_failed_step_opens_what_was_built_on_it() -> None:

@@ -193,7 +193,7 @@ def test_a_motor_that_does_not_move() -> None:
 @pytest.mark.parametrize(
     ("code", "machine"),
     [
-        (114, {"gravity": 5.0}),  # the field of one volt can not hold it
+        (114, {"gravity": 5.0}),  # the field of one volt cannot hold it
         (112, {"viscous_friction": 0.05, "inertia": 0.02}),  # it is still on its way when BZ gives up
     ],
 )

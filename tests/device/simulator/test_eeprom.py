@@ -168,6 +168,6 @@ def test_a_damaged_file_is_said_in_one_sentence(tmp_path: Path) -> None:
 def test_a_file_that_can_not_be_written_is_error_15(tmp_path: Path) -> None:
     bench = Bench(eeprom=Eeprom(tmp_path / "no such folder" / "unit.eeprom"))
     assert bench.refused("BN") == 15
-    assert bench.simulation.notices[0].startswith("the EEPROM file can not be written")
+    assert bench.simulation.notices[0].startswith("the EEPROM file cannot be written")
     bench.type("\x12\x13", ms=1100)
     assert bench.ask("KP?") == " 0006.00"

@@ -27,7 +27,7 @@ def test_gearing_of_the_ssc() -> None:
     bench.ask("PR 1000;BGX")
     bench.wait(500)
     assert (bench.position(1), bench.position(2)) == (2000, -1000)
-    assert bench.refused("GR 1") == 46  # an axis can not follow itself
+    assert bench.refused("GR 1") == 46  # an axis cannot follow itself
     bench.ask("STY")
     assert bench.ask("GR ,?,?") == " 000.0000,-001.0000"
 

@@ -47,7 +47,7 @@ def cold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("LOCALAPPDATA", str(tmp_path))
     folder = cache_folder()
     if not folder.is_relative_to(tmp_path):
-        pytest.skip("the cache can not be moved here")
+        pytest.skip("the cache cannot be moved here")
     assert loops.take_lock()
     return folder
 

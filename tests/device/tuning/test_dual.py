@@ -109,7 +109,7 @@ def test_it_is_not_identified_and_told_why(tmp_path: Path) -> None:
     rig = dual(MACHINES["play, dry"])
     excited = done(rig, run_excitation(rig.controller, Wish("X", 200, Gains()), tmp_path, WHEN))
     assert isinstance(excited.recording, NotIdentified)
-    assert "dual loop (DV 1) can not be identified" in excited.recording.reason and not rig.sent("IP")
+    assert "dual loop (DV 1) cannot be identified" in excited.recording.reason and not rig.sent("IP")
 
 
 def test_a_swing_that_every_record_hides_is_seen() -> None:

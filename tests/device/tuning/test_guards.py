@@ -148,7 +148,7 @@ def test_without_a_place_to_keep_them_nothing_is_changed(tmp_path: Path) -> None
     rig = ready()
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
-    with pytest.raises(NotAllowed, match="can not be kept"):
+    with pytest.raises(NotAllowed, match="cannot be kept"):
         rig.result(begin(rig, blocked, lambda former: asked(rig, "KPX=500")))
     assert held(rig)["OE"] == 0
 

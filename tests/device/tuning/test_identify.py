@@ -1,4 +1,4 @@
-"""What a small excitation tells: every sample of it, the machine behind it, and what can not be told."""
+"""What a small excitation tells: every sample of it, the machine behind it, and what cannot be told."""
 
 from __future__ import annotations
 

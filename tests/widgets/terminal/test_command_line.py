@@ -97,7 +97,7 @@ def test_the_log_holds_every_line_with_its_time(stage: Stage, tmp_path: Path) ->
     text = path.read_text(encoding="utf-8")
     assert "› MG 42" in text and "0000000042.0000" in text
     panel(stage).keep_in(tmp_path / "no" / "folder.log")
-    assert "can not be written" in panel(stage).log.toPlainText() and not panel(stage).diary.open
+    assert "cannot be written" in panel(stage).log.toPlainText() and not panel(stage).diary.open
 
 
 def test_the_diary_adds_behind_what_was_there(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ def facts_of(model: Model) -> str:
 
 
 def serial_problem(text: str) -> str:
-    """Why a serial number can not be one."""
+    """Why a serial number cannot be one."""
     if not text or (text.isascii() and text.isdigit()):
         return ""
     return "Serial number: write digits only, as the controller tells it (MG _BN), or nothing"

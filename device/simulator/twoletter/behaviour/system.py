@@ -37,11 +37,11 @@ def burn_variables(unit: Unit, strand: Strand, call: Call) -> None:
 
 
 def _burn(unit: Unit, **parts: Any) -> None:
-    """Error 15 when the EEPROM's file can not be written."""
+    """Error 15 when the EEPROM's file cannot be written."""
     try:
         unit.eeprom.burn(**parts)
     except OSError as reason:
-        unit.notice(f"the EEPROM file can not be written: {reason.strerror or reason}")
+        unit.notice(f"the EEPROM file cannot be written: {reason.strerror or reason}")
         raise CommandError(WRITE_ERROR) from reason
 
 

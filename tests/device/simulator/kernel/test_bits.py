@@ -89,7 +89,7 @@ def test_without_numba_the_plain_loop_is_taken(monkeypatch: pytest.MonkeyPatch) 
     try:
         motion = Motion(1)
         assert not motion.compiled
-        with pytest.raises(compiled.CompilerMissing, match="numba can not be loaded"):
+        with pytest.raises(compiled.CompilerMissing, match="numba cannot be loaded"):
             Motion(1, compiled=True)
     finally:
         compiled.compiled_loop.cache_clear()
