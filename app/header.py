@@ -42,6 +42,7 @@ class Header(QWidget):
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
+        self.menus.setMinimumWidth(self.menus.sizeHint().width())  # no menu is ever cut or hidden
         self._fit()
 
     def _fit(self) -> None:
