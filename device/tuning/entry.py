@@ -77,7 +77,9 @@ def from_data(data: Mapping[str, Any]) -> Entry:
     gains = Gains(**{name: _real(value) for name, value in data["gains"].items()})
     metrics = data["metrics"]
     if metrics is not None:
-        metrics = Metrics(**{name: _real(value, name in MISSING) for name, value in metrics.items()})
+        metrics = Metrics(
+            **{"every": period} | {name: _real(value, name in MISSING) for name, value in metrics.items()}
+        )
     return Entry(
         int(_real(data["number"])), str(data["when"]), axis, str(data["method"]), gains, int(_real(data["step"])),
         Response(period, commanded, actual, volts), metrics, str(data["words"]), dict(data["estimate"]),

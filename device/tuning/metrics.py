@@ -11,6 +11,7 @@ from device.tuning.plant import Vector
 BAND = 0.02  # of the step, on both sides of its end
 LAST = 0.1  # of the response over which the steady error is averaged
 AT_LIMIT = 0.001  # V
+SHARP = 5  # values from which on a rise is known to a few percent
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,12 @@ class Metrics:
     steady_error: float  # commanded less actual, mean of the last tenth
     peak_error: float  # the largest |commanded - actual|
     saturated: float  # part of the time in which the motor command is at its limit
+    every: float = 0.0  # s between two recorded values
+
+    @property
+    def coarse(self) -> bool:
+        """Whether the rise is so short that it lies between a few recorded values."""
+        return self.rise_time is not None and self.rise_time < SHARP * self.every
 
 
 def passage(position: Vector, level: float) -> float | None:
@@ -76,6 +83,7 @@ def measure(response: Response, torque_limit: float) -> Metrics | str:
         steady_error=float(error[-tail:].mean()),
         peak_error=float(numpy.abs(error).max()),
         saturated=float((numpy.abs(response.volts[begin:]) >= torque_limit - AT_LIMIT).mean()),
+        every=response.period,
     )
 
 

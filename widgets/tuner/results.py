@@ -72,11 +72,20 @@ def metrics_words(metrics: Metrics | None) -> str:
     """The numbers of a response in one line."""
     if metrics is None:
         return ""
-    rise = "–" if metrics.rise_time is None else f"{metrics.rise_time * 1000:.1f} ms"
     settled = "did not settle" if metrics.settling_time is None else f"settled in {metrics.settling_time * 1000:.0f} ms"
     part = f"{metrics.saturated:.0%}" if metrics.saturated >= 0.005 else "less than 1%"
     torque = f", ▲ torque at its limit {part} of the time" if metrics.saturated > 0 else ""
     return (
-        f"Rise {rise}, overshoot {metrics.overshoot:.0%}, {settled}, steady error {metrics.steady_error:.1f} counts, "
-        f"largest {metrics.peak_error:.0f}{torque}"
+        f"Rise {_rise(metrics)}, overshoot {metrics.overshoot:.0%}, {settled}, "
+        f"steady error {metrics.steady_error:.1f} counts, largest {metrics.peak_error:.0f}{torque}"
     )
+
+
+def _rise(metrics: Metrics) -> str:
+    """Between two recorded values nothing is known: there it says how far they are apart."""
+    if metrics.rise_time is None:
+        return "–"
+    if metrics.coarse:
+        apart = f"a value each {metrics.every * 1000:.1f} ms: record for a shorter time"
+        return f"about {metrics.rise_time * 1000:.0f} ms ({apart})"
+    return f"{metrics.rise_time * 1000:.1f} ms"

@@ -81,3 +81,15 @@ def test_no_step_is_a_sentence() -> None:
     assert measure(flat, 10.0) == "There is no step in this response: the commanded position ends where it began."
     nothing = Response(DT, numpy.zeros(0), numpy.zeros(0), numpy.zeros(0))
     assert isinstance(measure(nothing, 10.0), str)
+
+
+@pytest.mark.parametrize(("each", "coarse"), [(0.004, False), (0.0085, False), (0.009, True), (0.0156, True)])
+def test_a_rise_between_a_few_values_says_so(each: float, coarse: bool) -> None:
+    """τ ln 9 of 20 ms is 43.9 ms: five values apart by at most 8.79 ms stand in it."""
+    t = numpy.arange(0, 0.4, each)
+    commanded, actual = (numpy.concatenate([[0.0], way]) for way in (1000 + 0 * t, 1000 * (1 - numpy.exp(-t / 0.02))))
+    one = Response(each, commanded, actual, 0 * actual)
+    found = measured(one)
+    assert found.every == each
+    assert found.rise_time is not None
+    assert (found.rise_time < 5 * each) == found.coarse == coarse
