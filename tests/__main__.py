@@ -23,13 +23,13 @@ CHECKS = (
     ("ruff format", ("-m", "ruff", "format", "--check", "--quiet", ".")),
     ("mypy --strict", ("-m", "mypy", "--strict", "codegen", "device")),
 )
-MAIN = "tests", "not alone and not paced", max(2, min(os.cpu_count() or 2, 8))
-# what waits for a line leaves the processors free: several side by side, every day beside the main part as well
-PACED = "tests that wait for a line or a clock", "paced and not alone", 5
-ALONE = "tests that measure time", "alone", 0
-PARTS = MAIN, PACED, ALONE  # title, marks, processes
+# title, marks, processes; what waits for a line leaves the processors free, so that several of them fit side by side
+PARTS = (
+    ("tests", "not alone and not paced", max(2, min(os.cpu_count() or 2, 8))),
+    ("tests that wait for a line or a clock", "paced and not alone", 5),
+    ("tests that measure time", "alone", 0),
+)
 NOTHING_COLLECTED = 5
-BACK = 10  # niceness: a tenth of the processor where somebody else wants it
 
 
 @dataclass
@@ -63,38 +63,17 @@ def run_check(name: str, arguments: tuple[str, ...], totals: Totals) -> None:
         totals.broken.append(name)
 
 
-class Part:
-    """One run of pytest; `aside` in the background, shown when it has ended."""
-
-    def __init__(self, title: str, arguments: list[str], environment: dict[str, str], *, aside: bool = False) -> None:
-        self.title = title
-        self._folder = tempfile.TemporaryDirectory()
-        self._report = Path(self._folder.name) / "report.xml"
-        self._shown = Path(self._folder.name) / "shown.txt" if aside else None
-        command = [sys.executable, "-m", "pytest", f"--junitxml={self._report}", *arguments]
-        if self._shown is None:
-            print(f"-- {title}", flush=True)
-            self._process = subprocess.Popen(command, cwd=ROOT, env=environment)
-        else:
-            with self._shown.open("wb") as file:
-                self._process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=file, stderr=file)
-
-    def step_back(self) -> Part:
-        """What goes on aside has the processors first: it waits for something, and then has to be quick."""
-        if hasattr(os, "setpriority"):
-            os.setpriority(os.PRIO_PROCESS, self._process.pid, BACK)
-        return self
-
-    def end(self, totals: Totals) -> None:
-        """Waits for it and adds up what it reports."""
-        code = self._process.wait()
-        if self._shown is not None:
-            print(f"-- {self.title}\n{self._shown.read_text(encoding='utf-8', errors='replace')}", flush=True)
-        if self._report.exists():
-            totals.add(self._report)
+def run_tests(title: str, arguments: list[str], environment: dict[str, str], totals: Totals) -> None:
+    """Runs pytest once and adds up what it reports."""
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report.xml"
+        command = [sys.executable, "-m", "pytest", f"--junitxml={report}", *arguments]
+        print(f"-- {title}", flush=True)
+        code = subprocess.run(command, cwd=ROOT, env=environment).returncode
+        if report.exists():
+            totals.add(report)
         if code not in (0, 1, NOTHING_COLLECTED) or (code == 1 and not totals.failed + totals.errors):
-            totals.broken.append(f"{self.title} (pytest ended with {code})")
-        self._folder.cleanup()
+            totals.broken.append(f"{title} (pytest ended with {code})")
 
 
 def summary(totals: Totals, seconds: float) -> str:
@@ -116,18 +95,11 @@ def workers(number: int) -> list[str]:
 
 
 def run_everyday(chosen: list[str], totals: Totals) -> None:
-    """All parts with the short counts; what only waits goes on beside the main part, which steps back for it."""
+    """All parts with the short counts, one after the other: what keeps a pace needs the processors when it wakes."""
     environment = dict(os.environ, QT_QPA_PLATFORM="offscreen")
     environment.pop("TWOLETTER_LONG", None)
-
-    def part(which: tuple[str, str, int], **more: bool) -> Part:
-        title, marks, number = which
-        return Part(title, [*workers(number), "-m", marks, *chosen], environment, **more)
-
-    waiting = part(PACED, aside=True)
-    part(MAIN).step_back().end(totals)
-    waiting.end(totals)
-    part(ALONE).end(totals)
+    for title, marks, number in PARTS:
+        run_tests(title, [*workers(number), "-m", marks, *chosen], environment, totals)
 
 
 def run_long(chosen: list[str], totals: Totals, *, resume: bool) -> None:
@@ -145,7 +117,7 @@ def run_long(chosen: list[str], totals: Totals, *, resume: bool) -> None:
             for title, marks, number in PARTS:
                 begin_part(folder)
                 more = ["-p", "tests.long.progress", "--timeout=7200", "-m", marks]
-                Part(title, [*workers(number), *more, *chosen], environment).end(totals)
+                run_tests(title, [*workers(number), *more, *chosen], environment, totals)
         finally:
             print(f"{len(collect(figures))} figures in tests/long/results.json")
             write_table()
