@@ -121,13 +121,22 @@ class Stage:
 
     def connect(self, kind: str = "simulator", model: str = "ssc2", answers: bool = True, **more: Any) -> Rig:
         """Another machine, in the situation that is asked for; waits until it has answered."""
-        channel = self.studio.recorder.channel()
-        rig = self.clock.add(Rig(kind, model, began=self.clock.now, tap=channel.wrap, **more))
-        world = SimulatedWorld(rig) if kind == "simulator" else None
-        self.studio.connection.adopt(Opened(rig.controller, world, channel.number), kind)
+        rig = self.machine(kind, model, **more)()
         if answers:
             self.until(lambda: rig.controller.state is State.READY)
         return rig
+
+    def machine(self, kind: str, model: str, **more: Any) -> Callable[[], Rig]:
+        """A simulated machine, ready made; what comes back connects the studio to it, and that is the studio's work."""
+        channel = self.studio.recorder.channel()
+        rig = self.clock.add(Rig(kind, model, began=self.clock.now, tap=channel.wrap, **more))
+        world = SimulatedWorld(rig) if kind == "simulator" else None
+
+        def plug() -> Rig:
+            self.studio.connection.adopt(Opened(rig.controller, world, channel.number), kind)
+            return rig
+
+        return plug
 
     def go(self, ticks: int = 3) -> None:
         """Some ticks, and what Qt has to do between them."""

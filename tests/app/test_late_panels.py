@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication
 from app.loading import load
 from device.api import State
 from tests.app.pauses import Ticks, too_long
+from tests.long import is_long
 from tests.stage import Stage, make_studio
 from widgets.panel import Panel
 
@@ -77,7 +78,7 @@ def first_looks(folder: Path) -> dict[str, float]:
     assert not studio.late.making.done
     ticks.phase("longest tick after the start", then=20)
     assert studio.late.making.done  # half a second
-    ticks.phase("longest tick while connecting", lambda: stage.connect("simulator", "ssc4", answers=False),
+    ticks.phase("longest tick while connecting", stage.machine("simulator", "ssc4"),
         lambda: stage.controller.state is State.READY, then=10)  # fmt: skip
     for title in studio.window.docks:
         name = f"longest tick of the first look at {title}"
@@ -115,10 +116,10 @@ def test_connecting_with_each_panel_in_front(stage: Stage) -> None:
             stage.go(6)
             ticks.phase(
                 f"longest tick while connecting, {title} in front",
-                lambda: stage.connect("simulator", "ssc2", answers=False),
+                stage.machine("simulator", "ssc2"),
                 lambda: stage.controller.state is State.READY,
                 then=5,
             )
         return ticks.worst
 
-    assert too_long(COMMAND, connecting) == {}
+    assert too_long(COMMAND, connecting, bare=is_long()) == {}
