@@ -22,6 +22,7 @@ from device.capture_room import Room
 from device.capture_talk import ELEMENT_BYTES, LINE_S, NOT, Talk
 from device.download import Job
 from device.proof import tells
+from device.quiet import allowed
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Steps, data_line
 from device.trigger import Turning, found_at, passed, watched
 from device.wire import FRAME_COLUMNS, Kind, Shape, Upload, fitting
@@ -173,17 +174,11 @@ class Recording:
     # ----------------------------------------------------------------- preparing
 
     def _allowed(self) -> Model:
-        c = self._c
-        if not c.control:
-            raise NotAllowed(f"{NOT}: this is Watch. Switch to Control first; a capture writes arrays there.")
-        if c.model is None:
-            raise NotAllowed(f"{NOT}: the controller's model is not known.")
-        if c.resting():
-            raise NotAllowed(f"{NOT}: {c.resting()}")
-        problem = objection(self._plan, c.model)
+        model = allowed(self._c, NOT)
+        problem = objection(self._plan, model)
         if problem:
             raise NotAllowed(f"{NOT}: {problem}")
-        return c.model
+        return model
 
     # ----------------------------------------------------------- a start at once
 

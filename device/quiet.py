@@ -21,17 +21,23 @@ STILL_S = 3.0  # for an axis that was told to stop
 STOPPED_S = 6.0  # for STOP to be proved before anything is put back
 
 
-def ready(c: Controller, axis: str, what: str = "Not started") -> Model:
-    """The controller's model where an axis of it may be worked with at all; NotAllowed with the reason otherwise."""
+def allowed(c: Controller, what: str) -> Model:
+    """The controller's model where it may be worked with at all; NotAllowed with the reason otherwise."""
     if not c.control:
         raise NotAllowed(f"{what}: this is Watch. Switch to Control first.")
     if c.model is None:
         raise NotAllowed(f"{what}: the controller's type is not known.")
     if c.resting():
         raise NotAllowed(f"{what}: {c.resting()}")
-    if axis not in c.model.axes:
-        raise NotAllowed(f"{what}: this controller has no axis {axis}.")
     return c.model
+
+
+def ready(c: Controller, axis: str, what: str = "Not started") -> Model:
+    """The same for one of its axes."""
+    model = allowed(c, what)
+    if axis not in model.axes:
+        raise NotAllowed(f"{what}: this controller has no axis {axis}.")
+    return model
 
 
 def still(c: Controller, model: Model, what: str) -> Steps[None]:

@@ -19,7 +19,7 @@ from device.simulator.process import SimulatorProcess
 from tests.app.tuning_life import click, studio_at
 from tests.device.test_latency import NO_PTY
 from tests.device.tuning.life import BAUD, connected
-from tests.device.tuning.test_killed import ERROR, FORMER, FURTHEST, held, stays
+from tests.device.tuning.test_killed import ERROR, FORMER, FURTHEST, held, set_up, stays
 from tests.long import count, record
 from tests.stage import Clock, Stage
 from widgets.parts.question import Question
@@ -43,11 +43,7 @@ def one(qapp: QApplication, folder: Path, seed: int) -> bool:
     """One life; whether it left something to put back."""
     folder.mkdir()
     with SimulatorProcess("ssc2", baud=BAUD, pty=True) as machine:
-        before = connected(machine.address)
-        before.ask("SH X").result(30)
-        for name, value in FORMER.items():
-            assert before.ask(f"{name}X={value:g}").result(30).accepted
-        before.close()
+        set_up(machine)
         live_and_die(machine, folder, seed)
         stays(machine)
         left, changed = left_of(machine, folder)

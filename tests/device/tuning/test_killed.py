@@ -43,15 +43,20 @@ def test_killed_at_any_moment_of_tuning(tmp_path: Path) -> None:
     record("of them in the middle of a run", "pytest tests/device/tuning/test_killed.py", SEED, sum(found), "kills")
 
 
+def set_up(machine: SimulatorProcess) -> None:
+    """Its motor on, and the values that have to be there again at the end."""
+    before = connected(machine.address)
+    before.ask("SH X").result(30)
+    for name, value in FORMER.items():
+        assert before.ask(f"{name}X={value:g}").result(30).accepted
+    before.close()
+
+
 def one(folder: Path, seed: int) -> bool:
     """One life; whether it left something to put back."""
     folder.mkdir()
     with SimulatorProcess("ssc2", baud=BAUD, pty=True) as machine:
-        before = connected(machine.address)
-        before.ask("SH X").result(30)
-        for name, value in FORMER.items():
-            assert before.ask(f"{name}X={value:g}").result(30).accepted
-        before.close()
+        set_up(machine)
         live_and_die(machine, folder, seed)
         stays(machine)
         after = connected(machine.address)
