@@ -1,4 +1,4 @@
-"""Steps that go somewhere: pasted, duplicated, moved with keys, dragged here from near and far."""
+"""Steps that go somewhere: copied, pasted, duplicated, deleted, moved with keys, dragged here from near and far."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QMimeData, QObject, Qt, Signal
 
 from codegen import files, read
-from codegen.instructions import ALL
+from codegen.instructions import ALL, TwoLetterCode
 from codegen.program import Place, Step, find, place_for, place_of
+from widgets.program import clipboard
 from widgets.program.model import NEW_MIME, STEPS_MIME, ProgramModel
 from widgets.program.node import TITLES
 from widgets.program.pasting import put_in
 from widgets.program.places import neighbour
 from widgets.program.tree import ProgramTree
+from widgets.program.words import Words
 
 if TYPE_CHECKING:
     from widgets.program.editing import Editing
@@ -27,9 +29,9 @@ class Arranging(QObject):
     said = Signal(str)
     new_wanted = Signal(object, object)  # kind of instruction, Place
 
-    def __init__(self, session: Editing, model: ProgramModel, tree: ProgramTree) -> None:
+    def __init__(self, session: Editing, model: ProgramModel, tree: ProgramTree, words: Words) -> None:
         super().__init__(tree)
-        self.session, self.model, self.tree = session, model, tree
+        self.session, self.model, self.tree, self.words = session, model, tree, words
         tree.refusal = self._refusal_of
         queued = Qt.ConnectionType.QueuedConnection  # the drag is over first
         tree.moved.connect(self.move_to, queued)
@@ -52,6 +54,38 @@ class Arranging(QObject):
             self.said.emit(f"This is {'the first' if by < 0 else 'the last'} place in {section}")
         else:
             self.move_to(ids, place)
+
+    def copy(self) -> None:
+        """The chosen steps onto the clipboard: as steps, and as plain code for other programs."""
+        ids = self.tree.chosen()
+        if ids:
+            plain = "\n".join(self.words.plain(self.step(step_id)) for step_id in ids)
+            clipboard.put(ids, self.session.copy(ids), plain)
+
+    def paste_clipboard(self) -> None:
+        """Steps as steps; text from elsewhere as 2-Letter Code."""
+        kind, text = clipboard.take()
+        before = self.tree.current() if self.tree.chosen() else None
+        if kind == "steps":
+            self.paste(text, before=before)
+        elif kind == "code":
+            self.tree.choose(self.session.insert([TwoLetterCode(text=text)], before, None))
+
+    def delete(self) -> None:
+        """The chosen steps go; the focus stays where they were."""
+        ids = self.tree.chosen()
+        if ids:
+            after = self._after(ids[-1])
+            self.session.remove(ids)
+            if self.model.index_of(after).isValid():
+                self.tree.choose([after])
+            self.said.emit("Deleted. Ctrl+Z brings it back.")
+
+    def _after(self, step_id: str) -> str:
+        """The row behind a step and all it holds."""
+        node = self.model.nodes[step_id]
+        line = node.line + sum(1 for _ in node.unfolded())
+        return self.model.rows[line].id if node.line >= 0 and line < len(self.model.rows) else ""
 
     def paste(self, text: str, before: str | None = None, place: Place | None = None) -> None:
         document, steps = self.session.document, files.steps_from_text(text)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 
 from codegen.instructions import Instruction
 from codegen.program import Place, Section, find, open_routine, place_of, section_of
-from codegen.read import sentence
+from codegen.read import cannot, sentence
 from widgets.form.dialog import InstructionDialog
 from widgets.form.offers import Offers, offers_of
 from widgets.program.node import TITLES
@@ -41,6 +41,14 @@ class Dialogs(QObject):
             lambda instruction, section, stay: self._added(instruction, section, before, place, dialog.note.text())
         )
         return dialog
+
+    def add_possible(self, kind: type[Instruction]) -> None:
+        """The same, unless the setup's controller does not know the instruction: then the reason is said."""
+        reason = cannot(kind, self.session.document.working_setup)
+        if reason:
+            self.said.emit(reason)
+        else:
+            self.add(kind)
 
     def modify(self, step_id: str) -> InstructionDialog:
         """The dialog of a step that is there; a second call brings the open one to the front."""

@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QDate, QPoint, Qt, Signal
 from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QVBoxLayout, QWidget
 
-from codegen import read
 from codegen.document import Document
 from codegen.generate import Listing
-from codegen.instructions import Comment, Instruction, TwoLetterCode
+from codegen.instructions import Comment
 from codegen.program import Section, Step, find
 from widgets.form.inspector import Inspector
 from widgets.form.offers import LiveValues, offers_of
-from widgets.program import clipboard
 from widgets.program.arranging import Arranging
 from widgets.program.code_popup import CodePopup
 from widgets.program.commands import COMMANDS, make_actions
@@ -69,7 +67,7 @@ class ProgramView(QWidget):
         self.run = Running(session, self.words, self.tree, self.delegate, self.code)
         self.find_bar = FindBar()
         self.finding = Finding(session, self.words, self.tree, self.delegate, self.find_bar)
-        self.arranging = Arranging(session, self.model, self.tree)
+        self.arranging = Arranging(session, self.model, self.tree, self.words)
         self.mode = "program"
         self._stepping = self._showing = False
         self.commands = make_actions(self)
@@ -105,7 +103,7 @@ class ProgramView(QWidget):
         """While the listing is out of sight it follows nothing."""
         if self.mode != "program":
             listing = self.session.listing
-            self.code.show_lines([line.text for line in listing.lines], self._problem_lines())
+            self.code.show_lines([line.text for line in listing.lines], self.words.problem_lines())
 
     @property
     def running(self) -> Listing | None:
@@ -218,36 +216,17 @@ class ProgramView(QWidget):
         self.delete()
 
     def copy(self) -> None:
-        ids = self.tree.chosen()
-        if ids:
-            clipboard.put(ids, self.session.copy(ids), "\n".join(self._plain(step_id) for step_id in ids))
-            self.refresh_commands()
+        self.arranging.copy()
+        self.refresh_commands()
 
     def paste(self) -> None:
-        kind, text = clipboard.take()
-        before = self.tree.current() if self.tree.chosen() else None
-        if kind == "steps":
-            self.arranging.paste(text, before=before)
-        elif kind == "code":
-            self.tree.choose(self.session.insert([TwoLetterCode(text=text)], before, None))
+        self.arranging.paste_clipboard()
 
     def duplicate(self) -> None:
         self.arranging.duplicate()
 
     def delete(self) -> None:
-        ids = self.tree.chosen()
-        if ids:
-            after = self._after(ids[-1])
-            self.session.remove(ids)
-            if self.model.index_of(after).isValid():
-                self.tree.choose([after])
-            self.said.emit("Deleted. Ctrl+Z brings it back.")
-
-    def _after(self, step_id: str) -> str:
-        """The row behind a step and all it holds."""
-        node = self.model.nodes[step_id]
-        line = node.line + sum(1 for _ in node.unfolded())
-        return self.model.rows[line].id if node.line >= 0 and line < len(self.model.rows) else ""
+        self.arranging.delete()
 
     def move_up(self) -> None:
         self.arranging.shift(-1)
@@ -315,13 +294,6 @@ class ProgramView(QWidget):
 
     # ---- inside
 
-    def _chosen_kind(self, kind: type[Instruction]) -> None:
-        reason = read.cannot(kind, self.session.document.working_setup)
-        if reason:
-            self.said.emit(reason)
-        else:
-            self.dialogs.add(kind)
-
     def _show_selection(self, *, scroll: bool = True) -> None:
         chosen = self.tree.chosen()
         self.code.show_chosen([line for step_id in chosen for line in self.words.lines_of(step_id)], scroll=scroll)
@@ -360,17 +332,6 @@ class ProgramView(QWidget):
             self.tree.viewport().update()
         self.refresh_commands()
 
-    def _problem_lines(self) -> dict[int, str]:
-        return {
-            line: messages[0]
-            for step, messages in self.words.problems.items()
-            if step
-            for line in self.words.lines_of(step)[:1]
-        }
-
-    def _plain(self, step_id: str) -> str:
-        return "\n".join(self.words.code_lines(self.step(step_id))) or self.words.english(self.step(step_id))
-
     def _menu(self, point: QPoint) -> None:
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
@@ -401,7 +362,7 @@ class ProgramView(QWidget):
         self.header.described.connect(lambda text: session.set_program(description=text))
         self.header.mode_chosen.connect(self.set_view)
         self.bar.left.connect(self.end_of_repeat)
-        self.instructions.chosen.connect(self._chosen_kind)
+        self.instructions.chosen.connect(self.dialogs.add_possible)
         self.problems.chosen.connect(self.reveal_step)
         self.inspector.edited.connect(session.replace)
         self.inspector.noted.connect(session.set_note)

@@ -57,6 +57,16 @@ class Words:
         lines = [self.listing.lines[number] for number in self.lines_of(step.id)]
         return [_part(line, step.id) for line in lines if not line.problem]
 
+    def plain(self, step: Step) -> str:
+        """For other programs: the step's lines of code, or its sentence when it has none."""
+        return "\n".join(self.code_lines(step)) or self.english(step)
+
+    def problem_lines(self) -> dict[int, str]:
+        """The first problem of each line of code that has one."""
+        return {
+            line: messages[0] for step, messages in self.problems.items() if step for line in self.lines_of(step)[:1]
+        }
+
     def problem(self, step: Step) -> str:
         """The first problem of a step, or nothing."""
         return self.problems.get(step.id, [""])[0]
