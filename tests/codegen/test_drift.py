@@ -29,6 +29,7 @@ from codegen.instructions import (
     Wait,
 )
 from codegen.instructions.flow import JumpIf, JumpKind, RepeatMode
+from codegen.instructions.motion import MoveMode
 from codegen.instructions.path_parts import Measured, Piece, Shape, Stretch
 from codegen.program import Program, Step
 from codegen.setup import Axis, Setup, Unit
@@ -166,3 +167,29 @@ def test_two_letter_code_in_a_loop(code: str, wanted: list[str]) -> None:
 )
 def test_a_loop_of_two_letter_code(code: str, wanted: list[tuple[str, str]]) -> None:
     assert of_loop(TwoLetterCode(text=code)) == wanted
+
+
+def moves(count: str, *distances: str) -> Step:
+    body = tuple(Step(f"m{place}", SingleAxisMove(axis="Y", distance=each)) for place, each in enumerate(distances))
+    return Step("r", Repeat(count=count), body=body)
+
+
+def test_drift_over_loops() -> None:
+    """0.0016 mm too far in each of 1000 turns are 1.6 mm (safety.md, 6): here 0.3 counts are lost each time."""
+    assert drift(moves("1000", "0.003"), SETUP) == "This repeat drifts: Y by -3 mm in 1000 turns"
+    assert drift(moves("1000", "0.0116"), SETUP) == "This repeat drifts: Y by -1.6 mm in 1000 turns"
+    assert drift(moves("1000", "0.003", "-0.003"), SETUP) is None
+    assert drift(moves("1000", "0.25"), SETUP) is None
+    inside = Step("o", Repeat(count="10"), body=(moves("100", "0.003"),))
+    assert drift(inside, SETUP) == "This repeat drifts: Y by -3 mm in 10 turns"
+
+
+def test_expressions_with_a_minus_may_drift() -> None:
+    """commands.md, 11: an argument of step 1 is rounded downwards, so -LEN*100 is not -(LEN*100)."""
+    assert "may drift" in (drift(moves("10", "LEN", "-LEN"), SETUP) or "")
+    assert drift(moves("10", "LEN"), SETUP) is None
+
+
+def test_an_absolute_move_ends_the_drift() -> None:
+    body = (*moves("1", "0.003").body, Step("p", SingleAxisMove(axis="Y", mode=MoveMode.TO, position="0")))
+    assert drift(Step("r", Repeat(count="1000"), body=body), SETUP) is None

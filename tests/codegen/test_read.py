@@ -1,4 +1,4 @@
-"""Sentences, problems, counts and warnings of single fields; other scales; the second language."""
+"""Sentences, problems, counts and warnings of single fields; the second language."""
 
 from __future__ import annotations
 
@@ -11,10 +11,8 @@ from hypothesis import strategies as st
 
 from codegen import smartmotor
 from codegen.docs import pages
-from codegen.document import Document
-from codegen.drift import drift
 from codegen.fields import AXES, Dimension
-from codegen.generate import code, compiled, generate
+from codegen.generate import code, compiled
 from codegen.instructions import (
     ALL,
     AccelDecel,
@@ -92,15 +90,13 @@ from codegen.instructions.tasks import (
 )
 from codegen.instructions.waits import Clock, Finished, Moving, Place, WaitKind
 from codegen.models import MODELS
-from codegen.program import Program, Step
 from codegen.read import counts_text, has_errors, problem_of, problems, sentence, shown, unit_text, warning_of
-from codegen.rescale import scaled_text, with_setup
 from codegen.setup import Axis, MotorType, Setup, Unit
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import scaled
 from codegen.twoletter.nodes import Broken, Foreign
 from codegen.twoletter.parse import parse_line
-from tests.codegen.strategies import instructions, programs
+from tests.codegen.strategies import instructions
 
 MM = Axis(unit=Unit.MM, counts_per_unit="1000", forward_limit="200", reverse_limit="0", maximum_speed="100")
 SETUP = Setup(
@@ -400,78 +396,6 @@ def test_any_instruction_on_any_machine(
     for line in code(instruction, setup):
         assert len(line) <= setup.limits.columns
         assert not any(isinstance(node, Broken | Foreign) for node in parse_line(line).statements), line
-
-
-# ------------------------------------------------------------------ other scales
-
-
-def test_keeping_counts_rewrites_numbers() -> None:
-    """The same machine in mm instead of inches: 25.4 times fewer counts per unit, the same code."""
-    inch = Setup(model="ssc1").with_axis("X", Axis(counts_per_unit="2540", forward_limit="10"))
-    millimetre = Setup(model="ssc1").with_axis("X", Axis(unit=Unit.MM, counts_per_unit="100", forward_limit="10"))
-    steps = (
-        Step("a", SingleAxisMove(distance="4", speed="2")),
-        Step("b", Repeat(count="3"), body=(Step("c", SingleAxisMove(distance="LEN+_TPX")),)),
-        Step("d", AccelDecel(acceleration=("100", "", "", ""))),
-    )
-    old = Document(Program("P", main=steps), inch)
-    new = with_setup(old, millimetre, "counts")
-    assert new.program.main[0].instruction == SingleAxisMove(distance="101.6", speed="50.8")
-    assert new.setup.axis("X").forward_limit == "254"
-    lines, before = generate(new).text.split("\n"), generate(old).text.split("\n")
-    assert [line for line in lines if "LEN" not in line] == [line for line in before if "LEN" not in line]
-    assert "PR (LEN*25.4*100)+_TPX" in lines and "PR (LEN*2540)+_TPX" in before
-    assert with_setup(old, millimetre, "units").program is old.program
-
-
-@given(programs(), st.sampled_from(["2", "0.5", "25.4"]))
-def test_keeping_counts_keeps_the_code_of_plain_numbers(program: Program, ratio: str) -> None:
-    old = Setup(model="ssc4", axes=(Axis(counts_per_unit="1000"),) * 4)
-    scale = str(Fraction(1000) / Fraction(ratio)) if Fraction(1000) % Fraction(ratio) == 0 else "1000"
-    new = Setup(model="ssc4", axes=(Axis(counts_per_unit=scale),) * 4)
-    document = Document(program, old)
-    moved = with_setup(document, new, "counts")
-    for one, other in zip(document.program.steps(), moved.program.steps(), strict=True):
-        if not compiled(one.instruction, old).errors and not any(
-            name in repr(one.instruction) for name in ("LEN", "A", "_", "POS")
-        ):
-            assert code(other.instruction, new) == code(one.instruction, old)
-
-
-def test_scaled_texts() -> None:
-    two = Fraction(2)
-    assert [scaled_text(text, two) for text in ("", "4", "LEN", "_TPX", "12,5")] == ["", "8", "LEN*2", "_TPX", "12,5"]
-
-
-# -------------------------------------------------------------------------- drift
-
-
-def loop(count: str, *distances: str) -> Step:
-    body = tuple(Step(f"m{place}", SingleAxisMove(axis="Y", distance=each)) for place, each in enumerate(distances))
-    return Step("r", Repeat(count=count), body=body)
-
-
-def test_drift_over_loops() -> None:
-    """0.0016 mm too far in each of 1000 turns are 1.6 mm (safety.md, 6): here 0.3 counts are lost each time."""
-    setup = SETUP.with_axis("Y", Axis(unit=Unit.MM, counts_per_unit="100"))
-    assert drift(loop("1000", "0.003"), setup) == "This repeat drifts: Y by -3 mm in 1000 turns"
-    assert drift(loop("1000", "0.0116"), setup) == "This repeat drifts: Y by -1.6 mm in 1000 turns"
-    assert drift(loop("1000", "0.003", "-0.003"), setup) is None
-    assert drift(loop("1000", "0.25"), setup) is None
-    inside = Step("o", Repeat(count="10"), body=(loop("100", "0.003"),))
-    assert drift(inside, setup) == "This repeat drifts: Y by -3 mm in 10 turns"
-
-
-def test_expressions_with_a_minus_may_drift() -> None:
-    """commands.md, 11: an argument of step 1 is rounded downwards, so -LEN*4000 is one count more than LEN*4000."""
-    assert "may drift" in (drift(loop("10", "LEN", "-LEN"), SETUP) or "")
-    assert drift(loop("10", "LEN"), SETUP) is None
-
-
-def test_an_absolute_move_ends_the_drift() -> None:
-    body = (*loop("1", "0.003").body, Step("p", SingleAxisMove(axis="Y", mode=MoveMode.TO, position="0")))
-    setup = SETUP.with_axis("Y", Axis(counts_per_unit="100"))
-    assert drift(Step("r", Repeat(count="1000"), body=body), setup) is None
 
 
 # ------------------------------------------------------------- the second language
