@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QModelIndex, QObject, Qt
@@ -15,6 +16,7 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDockWidget,
     QDoubleSpinBox,
+    QFileDialog,
     QLineEdit,
     QMainWindow,
     QMenu,
@@ -148,7 +150,7 @@ class Deeds(QObject):
     def _chosen(self, text: str) -> None:
         box = self.sender()
         if isinstance(box, QWidget):
-            self._tell(f"{_named(box, 'list')} = {text}")
+            self._tell(f"{_named(box, 'list')} = {_without_folders(box, text)}")
 
     def _typed(self) -> None:
         """A field was left, or Enter was pressed in it; told once, and only what the person changed."""
@@ -158,7 +160,7 @@ class Deeds(QObject):
         by_person = field.isModified() if isinstance(field, QLineEdit) else field.property(TOUCHED)
         if by_person and field.text() != field.property(TOLD):
             field.setProperty(TOLD, field.text())
-            self._tell(f"{_named(field, 'field')} = {field.text()}")
+            self._tell(f"{_named(field, 'field')} = {_without_folders(field, field.text())}")
 
     def _touched(self) -> None:
         box = self.sender()
@@ -188,6 +190,11 @@ class Deeds(QObject):
 def _action_words(action: QAction) -> str:
     state = (" on" if action.isChecked() else " off") if action.isCheckable() else ""
     return f"{action.text().replace('&', '').rstrip('…')}{state}"
+
+
+def _without_folders(widget: QWidget, text: str) -> str:
+    """Of a file only its name: where it lies on this computer, and whose it is, is nobody's business elsewhere."""
+    return PureWindowsPath(text).name if isinstance(widget.window(), QFileDialog) else text
 
 
 def _cell_words(cell: QModelIndex) -> str:

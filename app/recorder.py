@@ -118,8 +118,9 @@ class Recorded(QObject):
             size = sum(path.stat().st_size for path in files)
         except OSError:  # one went meanwhile
             size = 0
-        since = time.strftime("%d %b %H:%M", time.localtime(float(files[0].stem.partition("-")[0]) / 1000))
-        words = f"Recording, always on: {size / 1e6:.1f} MB of {MOST_BYTES / 1e6:.0f} MB, since {since}."
+        began = self._recorder.since()
+        since = time.strftime(", since %d %b %H:%M", time.localtime(began)) if began is not None else ""
+        words = f"Recording, always on: {size / 1e6:.1f} MB of {MOST_BYTES / 1e6:.0f} MB{since}."
         return words, self._recorder.problem
 
     # ---------------------------------------------------------------- the replay

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import re
 import threading
 import time
 from collections import deque
@@ -16,7 +17,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
-from device.recorder_format import Packer, Payload, Record, What, note_bytes
+from device.recorder_format import HEAD, Packer, Payload, Record, What, begins, note_bytes
 from device.transport import Transport, Wired
 
 MOST_BYTES = 50_000_000
@@ -25,7 +26,9 @@ FILE_BYTES = 1_000_000
 WRITE_S = 0.5
 TOGETHER_S = 0.004  # pieces of one stream that come so close to each other are kept as one
 QUEUE_BYTES = 65_536  # where no thread writes: so much waits at most
+JUMP_S = 2.0  # the clock on the wall against our own: slept through by the computer, or set by somebody
 SUFFIX = ".tape"
+OURS = re.compile(rf"([0-9]{{15}})-[0-9]+\{SUFFIX}")  # a file of the ring; any other is somebody's
 
 Queued: TypeAlias = tuple[float, What, int, "bytes | tuple[str, Payload]"]
 
@@ -96,11 +99,21 @@ class Recorder:
         self.flush()
 
     def files(self) -> list[Path]:
-        """The files there are, oldest first."""
+        """The files of the ring, oldest first."""
         try:
-            return sorted(path for path in self.folder.iterdir() if path.suffix == SUFFIX)
+            return sorted(path for path in self.folder.iterdir() if OURS.fullmatch(path.name))
         except OSError:
             return []
+
+    def since(self) -> float | None:
+        """When the oldest of what is kept was recorded, in seconds since 1970."""
+        for path in self.files():
+            try:
+                with path.open("rb") as file:
+                    return begins(file.read(HEAD.size))
+            except OSError:  # it went meanwhile
+                continue
+        return None
 
     # ---------------------------------------------------------------- writing
 
@@ -119,9 +132,12 @@ class Recorder:
         self._waiting = 0
         if not taken:
             return
+        began = self._wall() - self._clock()
+        if abs(began - self._began) > JUMP_S:
+            self._began = began
         records = joined_pieces([self._record(each) for each in taken])
         try:
-            if self._path is None or self._written >= FILE_BYTES:
+            if self._path is None or self._written >= FILE_BYTES or not self._path.exists():
                 self._begin(records[0].at)
                 standing = [self._record((taken[0][0], What.NOTE, 0, each)) for each in self._standing.items()]
                 records = [*standing, *records]
@@ -155,10 +171,10 @@ class Recorder:
         return Record(self._began + at, what, channel, data if isinstance(data, bytes) else note_bytes(*data))
 
     def _begin(self, at: float) -> None:
-        """The next file; those that are too old or too many go."""
+        """The next file; those that are too old or too many go. Names go up even where the clock was set back."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        kept = 0
-        for path in reversed(self.files()):
+        kept, files = 0, self.files()
+        for path in reversed(files):
             try:
                 facts = path.stat()
             except FileNotFoundError:  # another studio has taken it away
@@ -166,7 +182,9 @@ class Recorder:
             kept += facts.st_size
             if kept > self._most_bytes - FILE_BYTES or facts.st_mtime < self._wall() - self._most_s:
                 path.unlink(missing_ok=True)
-        self._path = self.folder / f"{round(at * 1000):015d}-{os.getpid()}{SUFFIX}"
+        newest = OURS.fullmatch(files[-1].name) if files else None
+        number = max(round(at * 1000), int(newest[1]) + 1 if newest else 0)
+        self._path = self.folder / f"{number:015d}-{os.getpid()}{SUFFIX}"
         self._written = 0
         self._packer.afresh()
 

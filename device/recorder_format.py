@@ -19,6 +19,7 @@ HEAD = struct.Struct("<4sIBIdd")  # mark, checksum of all that follows, flags, s
 UNIT_S = 0.0001  # of the times inside a block
 CHECKED = 8  # bytes of the head before what the checksum covers
 STREAM_BYTES = 262_144  # of records, before the stream begins afresh
+LATEST = 32_503_680_000.0  # s since 1970, the year 3000: a later moment was not written by us
 MOST_BYTES = 64_000_000  # of records that one block may hold: more is no recording of ours
 
 Payload: TypeAlias = "str | bytes | Mapping[str, Any]"
@@ -152,7 +153,17 @@ def _block(data: bytes, start: int) -> Block | None:
         return None
     if zlib.crc32(data[begin : begin + size], zlib.crc32(data[start + CHECKED : begin])) != checksum:
         return None
+    if not 0 <= first <= last <= LATEST:
+        return None
     return Block(begin, size, Flag(flags & 7), first, last, -1)
+
+
+def begins(head: bytes) -> float | None:
+    """When the block with this head begins, in seconds since 1970."""
+    if len(head) < HEAD.size or not head.startswith(MARK):
+        return None
+    first: float = HEAD.unpack(head)[4]
+    return first if 0 <= first <= LATEST else None
 
 
 def _columns(records: Sequence[Record], first: float) -> bytes:

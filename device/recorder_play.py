@@ -179,8 +179,9 @@ class Heard:
     def _standing(self, facts: Mapping[str, Any]) -> None:
         """What was connected, and how."""
         c = self._c
-        if facts.get("channel") != self._channel:
-            self._channel = int(facts.get("channel") or 0)
+        channel = facts.get("channel")
+        if channel != self._channel:
+            self._channel = channel if isinstance(channel, int) else 0
             self._line.clear()
             c.link.wire.forget()
         model, identity = MODELS.get(str(facts.get("model"))), facts.get("identity")

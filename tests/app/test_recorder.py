@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLineEdit, QMenu, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QApplication, QFileDialog, QLineEdit, QMenu, QPushButton
 
 from app.deeds import LISTEN_TICKS
 from device.api import Kind, State, StopState
@@ -240,6 +240,21 @@ def test_fields_cells_menus_pages_and_hands_are_noted_too(stage: Stage) -> None:
         assert wanted in found, found
     assert any(each.endswith(" = Captures") for each in found), found
     assert "By hand: axis X" in found and found.index("By hand: let go") > found.index("By hand: axis X")
+
+
+def test_of_a_file_only_the_name_is_noted(stage: Stage, tmp_path: Path) -> None:
+    """Where files lie on a computer, and whose it is, does not leave with a recording."""
+    stage.studio.files.save_as()
+    stage.go(2 * LISTEN_TICKS)
+    dialog = next(each for each in QApplication.topLevelWidgets() if isinstance(each, QFileDialog) and each.isVisible())
+    name = next(each for each in dialog.findChildren(QLineEdit) if each.isVisible())
+    name.selectAll()
+    QTest.keyClicks(name, str(tmp_path / "press.tlp"))
+    QTest.keyClick(name, Qt.Key.Key_Return)
+    stage.go()
+    assert stage.studio.session.path == tmp_path / "press.tlp"
+    words = done(stage)
+    assert any("press.tlp" in text for text in words) and not any(str(tmp_path) in text for text in words)
 
 
 def test_a_tuning_run_stands_in_the_recording(stage: Stage) -> None:

@@ -129,13 +129,13 @@ def same(one: Bytes, other: Bytes) -> None:
     assert max((abs(a[0] - b[0]) for a, b in zip(first, second, strict=True)), default=0.0) < 0.005
 
 
-PROGRAM = "\n".join(["#A", "SH X", "#L", "PR 500;SP 20000;BG X;AM X", 'MG "PART ",N', "N=N+1", "JP #L", "EN"])
+PROGRAM = "\n".join(["#A", "SH X;N=0", "#L", "PR 500;SP 20000;BG X;AM X", 'MG "PART ",N', "N=N+1", "JP #L", "EN"])
 
 
 @pytest.mark.timeout(3600)
 def test_a_recorded_while_replays_byte_for_byte(tmp_path: Path) -> None:
     """With a program that moves and talks, by the line's own time (long: an hour)."""
-    seconds = count(15, 3600)
+    seconds = count(10, 3600)
     tape = Taped(tmp_path, line=LineSettings(baud=19200))
     if is_long():
         tape.rig.simulation.motion.use(loop_for(True))
@@ -145,6 +145,8 @@ def test_a_recorded_while_replays_byte_for_byte(tmp_path: Path) -> None:
     recording = tape.recording()
     same(tape.kept, passed(recording))
     assert not recording.problem
+    talked = b"".join(data for _, what, data in tape.kept if what is What.RECEIVED)
+    assert tape.rig.running and talked.count(b"PART ") >= 2 * seconds, "the program did not move and talk all the time"
 
     played = Played(recording)
     heard: Bytes = []

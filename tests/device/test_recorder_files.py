@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
 import time
 import zipfile
+import zlib
 from pathlib import Path
 
 import pytest
 
+from codegen.models import MODELS
+from device.api import State
 from device.recorder import Recorder
-from device.recorder_format import MARK, Flag, Packer, Record, What, find_blocks
-from device.recorder_play import CONTROLLER
+from device.recorder_format import CHECKED, HEAD, MARK, Flag, Packer, Record, What, find_blocks, note_bytes
+from device.recorder_play import CONTROLLER, replayed
 from device.recorder_read import Recording, RecordingUnreadable, joined, open_recording
 from tests.device.test_recorder import WALL
 from tests.long import count, record
@@ -107,6 +111,82 @@ def test_the_ring_keeps_the_newest(tmp_path: Path) -> None:
     old.note("did", "Connect")
     old.flush()
     assert len(old.files()) == 1
+
+
+def test_times_are_those_of_the_clock_on_the_wall(tmp_path: Path) -> None:
+    """Our own clock stands while a computer sleeps; that of a panel computer is set by somebody."""
+    own, wall = [1000.0], [WALL]
+    recorder = Recorder(tmp_path, clock=lambda: own[0], wall=lambda: wall[0], threaded=False)
+    for step in (1.0, 8 * 3600.0, -7200.0):  # awake, slept through, set back
+        recorder.note("did", "Connect")
+        recorder.flush()
+        own[0] += 1.0
+        wall[0] += step
+    recorder.note("did", "Connect")
+    recorder.flush()
+    recording = Recording(joined(recorder.files()))
+    assert [note.at - WALL for note in recording.notes] == [0.0, 1.0, 28_801.0, 21_601.0]
+    assert [note.place for note in recording.notes] == [0.0, 1.0, 2.0, 3.0] and not recording.problem
+    assert recorder.since() == WALL
+
+
+def test_sessions_stay_in_their_order_though_the_clock_was_set_back(tmp_path: Path) -> None:
+    for day, moment in enumerate((WALL, WALL - 90_000.0, WALL - 89_000.0)):
+        recorder = Recorder(tmp_path, clock=lambda: 0.0, wall=lambda now=moment: now, threaded=False)
+        recorder.note("did", f"session {day}")
+        recorder.flush()
+    notes = Recording(joined(recorder.files())).notes
+    assert [note.payload for note in notes] == ["session 0", "session 1", "session 2"]
+    assert [note.at for note in notes] == [WALL, WALL - 90_000.0, WALL - 89_000.0]
+
+
+def test_files_that_somebody_put_there_are_left_alone(tmp_path: Path) -> None:
+    """A recording that was saved into the folder of the ring is no part of it, and the ring never takes it away."""
+    saved = tmp_path / "recording-2026-11-23-0710.tape"
+    saved.write_bytes(blocks_of(3))
+    os.utime(saved, (0.0, 0.0))
+    recorder = Recorder(tmp_path, most_bytes=0, threaded=False)
+    recorder.note("did", "Connect")
+    recorder.flush()
+    assert saved.exists() and saved not in recorder.files() and len(recorder.files()) == 1
+    assert recorder.since() == pytest.approx(time.time(), abs=60)
+
+
+def test_a_file_that_is_taken_away_meanwhile_takes_nothing_that_comes_after(tmp_path: Path) -> None:
+    """By a person who tidies up, or by another studio whose ring was full."""
+    recorder = Recorder(tmp_path, threaded=False)
+    recorder.stand(CONTROLLER, {"model": "ssc2", "channel": 1})
+    recorder.flush()
+    recorder.files()[0].unlink()
+    recorder.add(What.RECEIVED, 1, b"after")
+    recorder.flush()
+    recording = Recording(joined(recorder.files()))
+    assert [each.record.data for each in recording.records()][-1] == b"after" and not recording.problem
+    assert recording.before(CONTROLLER, 0.0) is not None
+
+
+@pytest.mark.parametrize("first", [float("nan"), float("inf"), -1.0, 1e300])
+def test_moments_that_no_clock_shows_are_damage(first: float) -> None:
+    """A file of somebody else whose checksums are right all the same."""
+    block = blocks_of(1)
+    flags, size = HEAD.unpack_from(block)[2:4]
+    rest = HEAD.pack(MARK, 0, flags, size, first, first)[CHECKED:] + block[HEAD.size :]
+    recording = Recording(MARK + struct.pack("<I", zlib.crc32(rest)) + rest, "odd.tape")
+    assert not list(recording.records()) and recording.problem
+
+
+@pytest.mark.parametrize("channel", ["x", [1], None, 1e400])
+def test_facts_that_make_no_sense_end_nothing(channel: object) -> None:
+    facts = note_bytes(
+        CONTROLLER, {"channel": channel, "model": "ssc2", "state": str(State.READY), "identity": {"serial": []}}
+    )
+    data = Packer().pack([Record(WALL, What.NOTE, 0, facts), Record(WALL + 1, What.RECEIVED, 1, b":")])
+    now = [0.0]
+    controller, _ = replayed(Recording(data), clock=lambda: now[0], sleep=lambda s: None, threaded=False)
+    for _ in range(20):
+        now[0] += 0.1
+        controller.link.step()
+    assert controller.state is State.READY and controller.model is MODELS["ssc2"]
 
 
 def test_a_folder_that_takes_nothing_is_said_and_nothing_stops(tmp_path: Path) -> None:
