@@ -22,6 +22,7 @@ from app.folding import Folding
 from app.follow import Follow, Program
 from app.found_working import FoundWorking
 from app.importing import Importing
+from app.in_turn import InTurn
 from app.late import Late
 from app.leaving import Leaving
 from app.live_values import LiveValuesReader
@@ -115,8 +116,9 @@ class Studio(QObject):
             partial(examined, self.recorder),
         )  # fmt: skip
         self.options = Options(settings, self._theme, self.window)
-        self.which = WhichModel(self.connection, settings, self.desk.ask)
-        self.met = FoundWorking(self.connection, self.desk.ask, self.connection.stop, self.run.upload)
+        self.in_turn = InTurn(self.connection, self.desk.put, self._asks_later, self)
+        self.which = WhichModel(self.connection, settings, self.in_turn.ask)
+        self.met = FoundWorking(self.connection, self.in_turn.ask, self.connection.stop, self.run.upload)
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.setup.facts = self.follow.facts
@@ -129,6 +131,10 @@ class Studio(QObject):
         self._join()
         self._attach(self.connection.controller)
         self._document_changed(None, self.session.document)
+
+    def _asks_later(self) -> bool:
+        """Whether something about the machine may be asked in a moment."""
+        return self.start.looking or self.met.asking or self.late.looking
 
     def now(self) -> float:
         """The time by which live values get old: a replay's own, which stands still with it."""
@@ -208,10 +214,11 @@ class Studio(QObject):
             self.ear.look,
             self.follow.look,
             self.setup.look,
+            self.met.look,  # before those who look at what an interrupted step has left
             self.late.look,
             lambda: self.editor.look(self.follow.known),
             self.which.look,
-            self.met.look,
+            self.in_turn.look,
             self.search.look,
             self.start.echo.look,
             self.stop_key.stay_first,

@@ -85,8 +85,13 @@ class Desk(QObject):
 
     def ask(self, title: str, words: str, answers: Answers, picture: str = "help") -> None:
         """A question that blocks nothing."""
-        self.question = Question(title, words, list(answers), self._window, picture)
-        self.question.show()
+        self.put(title, words, answers, picture)
+
+    def put(self, title: str, words: str, answers: Answers, picture: str = "help") -> Question:
+        """The same for those who want to know when it is closed."""
+        self.question = question = Question(title, words, list(answers), self._window, picture)
+        question.show()
+        return question
 
     def say(self, sentence: str) -> None:
         """A sentence in the status bar and in the messages."""
@@ -165,20 +170,26 @@ class Desk(QObject):
         self.upload.show()
 
     def offer_recovery(self) -> bool:
-        """All work that crashed sessions left behind; False when there is none."""
+        """Shows all work that crashed sessions left behind; False when there is none."""
+        window = self.left_behind()
+        if window is not None:
+            window.show()
+            window.raise_()
+        return window is not None
+
+    def left_behind(self) -> UnsavedWork | None:
+        """The same, not shown yet."""
         from widgets.unsaved.window import UnsavedWork
 
         self._left = self._session.recoverable()
         if not self._left:
-            return False
+            return None
         if self.unsaved is None:
             self.unsaved = UnsavedWork(self._window)
             self.unsaved.recover_wanted.connect(self._recover)
             self.unsaved.forget_wanted.connect(self._ask_forget)
         self.unsaved.show_work([_line(left) for left in self._left])
-        self.unsaved.show()
-        self.unsaved.raise_()
-        return True
+        return self.unsaved
 
     def show_unsaved(self) -> None:
         """The same when a person asks for it."""

@@ -63,6 +63,12 @@ class Offer(QObject):
         self._broken = broken
         self._looked_at: Controller | None = None  # and its values, or nothing left behind, were told
         self._told = False
+        self._reading: Controller | None = None  # what it holds is on its way
+
+    @property
+    def looking(self) -> bool:
+        """Whether what the controller holds of it is being read."""
+        return self._reading is self._connection.controller
 
     def look(self) -> None:
         """With each tick; the folder is read once for every connection."""
@@ -76,7 +82,7 @@ class Offer(QObject):
         if self._running():
             self._looked_at = None  # what it could not put back (Watch, a lost line) is asked about when it has ended
             return
-        if controller is self._looked_at or controller.model is None or controller.resting():
+        if self.looking or controller is self._looked_at or controller.model is None or controller.resting():
             return
         self._looked_at = controller
         self.offer(controller)
@@ -92,6 +98,7 @@ class Offer(QObject):
             from device.former import now_there
 
             former = left[0]
+            self._reading = controller
             self._tick.when_done(now_there(controller, former), partial(self._compare, controller, former))
 
     def _left(self, controller: Controller) -> list[Former]:
@@ -119,6 +126,7 @@ class Offer(QObject):
             )
 
     def _compare(self, controller: Controller, former: Former, future: Future[Any]) -> None:
+        self._reading = None
         if controller is not self._connection.controller:
             return
         if failure_of(future):

@@ -22,6 +22,11 @@ class FoundWorking:
         self._met: Controller | None = None
         self._asked: Inquiry | None = None
 
+    @property
+    def asking(self) -> bool:
+        """Whether a machine has still to say what it does."""
+        return self._asked is not None
+
     def look(self) -> None:
         """Asks a machine that has just been met what it does, and tells the person when it works."""
         controller = self._connection.controller

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
+from device.api import Kind
 from widgets.parts.pieces import Pieces
 
 if TYPE_CHECKING:
@@ -103,11 +104,22 @@ class Late(QObject):
 
         studio = self._studio
         made = Offer(
-            studio.connection, studio.tick, studio.desk.ask, studio.data / "commissioning",
-            lambda: "commissioning" in self.__dict__ and bool(self.commissioning.busy), self, STEP,
+            studio.connection, studio.tick, studio.in_turn.ask, studio.data / "commissioning",
+            self._may_not_be_looked_at, self, STEP,
         )  # fmt: skip
         made.said.connect(studio.desk.say)
         return made
+
+    @property
+    def looking(self) -> bool:
+        """Whether it is still open what an interrupted step has left in what is connected."""
+        if self._studio.connection.controller.kind is Kind.OFFLINE:
+            return False
+        return not self.making.done or self.interrupted.looking or self.at_machine.tuning.offer.looking
+
+    def _may_not_be_looked_at(self) -> bool:
+        """A step goes on, or the machine has still to say what it does: that is told first."""
+        return self._studio.met.asking or ("commissioning" in self.__dict__ and bool(self.commissioning.busy))
 
     # ---- actions
 

@@ -223,6 +223,11 @@ class Start(QObject):
         else:
             welcome.show_nothing(sentence)
 
+    @property
+    def looking(self) -> bool:
+        """Whether the welcome window is open."""
+        return self.welcome is not None and self.welcome.isVisible()
+
     def welcome_window(self) -> Welcome:
         """The welcome window, made when it is first needed."""
         from widgets.connect.welcome import Welcome

@@ -56,7 +56,9 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
     studio.program.tree.setFocus()
     if file is not None:
         studio.files.open_path(file)
-    elif not studio.desk.offer_recovery():
+    elif (left := studio.desk.left_behind()) is not None:
+        studio.in_turn.hold(left)
+    else:
         studio.session.open_copy(resources.path(SAMPLE))
     QTimer.singleShot(0, lambda: reach(studio, connect))  # what the person has clicked meanwhile goes first
 

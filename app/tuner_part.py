@@ -35,7 +35,9 @@ class TunerPart(QObject):
             connection, session, studio.run, tick, self.panel, self.book, self.memory, ask, studio.right.careful,
             folder, self, now,
         )  # fmt: skip
-        self.offer = Offer(connection, tick, ask, folder, lambda: self.tuner.job is not None, self)
+        self.offer = Offer(
+            connection, tick, studio.in_turn.ask, folder, lambda: studio.met.asking or self.tuner.job is not None, self
+        )
         self._recorder = studio.recorder
         self.book.added.connect(self._record)
         for part in (self.book, self.tuner, self.offer):

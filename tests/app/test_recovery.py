@@ -56,6 +56,7 @@ def test_everything_that_was_left_is_offered_newest_first_with_time_name_and_siz
     leave(stage, "THIRD", 2, path(stage).parent / "third.tlp")
     leave(stage, "SECOND", 1)
     begin(stage.studio, None, "offline")
+    stage.go(1)
     assert [line.split(" – ")[:3] for line in lines(stage)] == [
         ["third.tlp", "2026-05-04 12:30", "1 step"],
         ["SECOND", "2026-05-04 11:30", "1 step"],
@@ -67,6 +68,7 @@ def test_everything_that_was_left_is_offered_newest_first_with_time_name_and_siz
 def test_one_is_recovered_the_others_stay(stage: Stage) -> None:
     second, first = leave(stage, "SECOND", 1), leave(stage, "FIRST")
     begin(stage.studio, None, "offline")
+    stage.go(1)
     window(stage).list.setCurrentRow(1)
     click(stage, "Recover")
     assert stage.studio.session.document == first
@@ -79,6 +81,7 @@ def test_one_is_recovered_the_others_stay(stage: Stage) -> None:
 def test_later_keeps_everything(stage: Stage) -> None:
     leave(stage, "FIRST")
     begin(stage.studio, None, "offline")
+    stage.go(1)
     click(stage, "Later")
     assert len(stage.studio.session.recoverable()) == 1
 
@@ -87,6 +90,7 @@ def test_what_is_thrown_away_is_asked_about(stage: Stage) -> None:
     kept = leave(stage, "FIRST")
     leave(stage, "SECOND", 1)
     begin(stage.studio, None, "offline")
+    stage.go(1)
     click(stage, "Throw away")
     assert len(stage.studio.session.recoverable()) == 2
     question = stage.studio.desk.question
@@ -137,6 +141,7 @@ def test_with_a_file_that_was_saved_later_nothing_is_asked(stage: Stage) -> None
 
 def test_nothing_left_nothing_asked(stage: Stage) -> None:
     begin(stage.studio, None, "offline")
+    stage.go(1)
     assert stage.studio.desk.unsaved is None
     assert stage.studio.session.document.program.main  # the sample
 
