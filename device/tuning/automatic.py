@@ -9,6 +9,7 @@ l.2252 for the dual loop: KP 0 and KI 0 while KD is maximised.
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Generator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -19,8 +20,8 @@ from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from device.tuning.design import COARSE, LOUD
 from device.tuning.entry import gains_words
-from device.tuning.excite import kick
-from device.tuning.metrics import Metrics
+from device.tuning.excite import held, kick
+from device.tuning.metrics import Metrics, last, measure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -63,6 +64,7 @@ class Seen:
 
     metrics: Metrics | None
     vibrates: bool = False
+    carried: float = 0.0  # V that hold the axis at the end
 
     @property
     def settled(self) -> float:
@@ -87,6 +89,22 @@ class Chosen:
 
     gains: Gains | None
     words: str
+
+
+def seen(response: Response, gains: Gains, swings: bool) -> Seen:
+    """What a trial tells of its gains, an axis with weight on it lifted by what it sags before the step and after it.
+
+    Friction leaves an error on the side it came from, weight on the same side always: KI takes it away, at last.
+    """
+    found = measure(response, gains.torque_limit)
+    if isinstance(found, str):
+        return Seen(None, swings)
+    before, after = float(response.commanded[0] - response.actual[0]), found.steady_error
+    sag = math.copysign(min(abs(before), abs(after)), after) if before * after > 0 else 0.0
+    lifted = measure(dc.replace(response, actual=response.actual + sag), gains.torque_limit)
+    assert isinstance(lifted, Metrics)  # the same commanded step
+    carried = float(response.volts[last(response)].mean()) - gains.offset
+    return Seen(dc.replace(lifted, steady_error=after), swings, carried)
 
 
 Search = Generator[Trial, Seen, Chosen]
@@ -233,7 +251,9 @@ def _integrator(best: Gains, seen: Seen, words: str) -> Search:
     """KI up until the position error is gone; less of it where it overshoots or vibrates."""
     told = f"{words}"
     ki = grain("ki", max(best.kp / 32, 1 / 128))
-    if seen.metrics is not None and abs(seen.metrics.steady_error) <= NEAR_COUNTS:
+    # an integrator may go on giving what it had gathered before KI was 0; only without it would the error show
+    hidden = abs(seen.carried) > NEAR_COUNTS * 1.5 * held(best)
+    if seen.metrics is not None and abs(seen.metrics.steady_error) <= NEAR_COUNTS and not hidden:
         seen_error = abs(seen.metrics.steady_error)
         return Chosen(best, f"{_begin(told)}. The position error was {seen_error:.3g} counts without KI: KI stays 0.")
     good = best

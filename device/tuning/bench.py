@@ -25,7 +25,8 @@ from device.lease import at
 from device.proof import proved
 from device.quiet import ready
 from device.tasks import LinkError, Steps, Wait
-from device.tuning.automatic import Chosen, Search, Seen, search, vibrates
+from device.tuning.automatic import Chosen, Search, search, vibrates
+from device.tuning.automatic import seen as seen_of
 from device.tuning.excite import Excitation, NotIdentified, excitation, held, refused
 from device.tuning.feed import Sweep
 from device.tuning.guards import Cancelled, Fault, Guard, not_stopped, watch
@@ -152,6 +153,7 @@ class Bench:
     began: float
     trials: int = 0
     looks: tuple[float, ...] = ()  # the motor command at odd moments after the last record, V
+    rest: tuple[float, float] = (0.0, 0.0)  # error (counts) and motor command (V) before the step
 
     @property
     def axis(self) -> str:
@@ -177,7 +179,7 @@ class Bench:
         pace = {"SP": sweep.speed * ONE, "AC": sweep.acceleration * ONE, "DC": sweep.acceleration * ONE, "IT": ONE}
         yield from assign(self.c, self.axis, {**registers(gains), **pace})
         yield Wait(SETTLE_S)
-        yield from self._stands(gains.kp)
+        yield from self._stands(gains)
         yield from proved(self.c.nonces, f"PR{self.axis}={sweep.counts}", LINE_S, REFUSAL_S)
         capture = yield from self._captured(self._plan(sweep.seconds, MOVE_VALUES, f"BG {self.axis}"))
         volts, error = (capture.of(Channel(name, self.axis)) for name in ("torque", "error"))
@@ -207,7 +209,7 @@ class Bench:
             trials.append(measured)
             tell(measured, trial.why)
             counts = -counts  # back and forth (ssc-tol-o-motion.txt l.2857)
-            seen = Seen(measured.metrics, measured.vibrates)
+            seen = seen_of(measured.response, measured.gains, measured.vibrates)
 
     def excite(self, gains: Gains) -> Steps[Excited]:
         """Jumps to and fro within the travel while error and torque are recorded."""
@@ -293,15 +295,19 @@ class Bench:
                 yield from watch(self.c, self.axis)
                 raise LinkError(f"The step could not begin: “{line}” was not accepted.")
         yield Wait(SETTLE_S)
-        yield from self._stands(gains.kp)
+        yield from self._stands(gains)
 
-    def _stands(self, kp: float) -> Steps[None]:
-        """The motor is on and the axis does not swing already."""
+    def _stands(self, gains: Gains) -> Steps[None]:
+        """The motor is on and the axis does not swing already; an integrator has taken over what it has to carry."""
         places = yield from self._errors()
+        for _ in range(RESTING if gains.ki else 0):
+            before, places = places, (yield from self._errors())
+            if abs(sum(places) - sum(before)) <= len(places) / 2:
+                break
         if max(places) - min(places) <= max(QUIET_COUNTS, abs(self.wish.step) // 4):
             return
         seen = f"(TE between {min(places)} and {max(places)} counts)"
-        if not kp:
+        if not gains.kp:
             raise Fault(
                 f"Axis {self.axis} does not stay where it is with KP 0 {seen}: weight, or more backlash than a dual "
                 "loop can hold. The former gains are back: tune it by hand."
@@ -312,11 +318,14 @@ class Bench:
 
     def _errors(self) -> Steps[list[int]]:
         """The position error at some moments, counts; Fault where the motor went off."""
-        found: list[int] = []
+        found, volts = [], 0.0
         for _ in range(4):
             yield from watch(self.c, self.axis)
-            told = yield from exact(self.c.nonces, [f"_TE{self.axis}"], self.model.columns)
-            found.append((told[0] or 0) // ONE)
+            told = yield from exact(self.c.nonces, [f"_TE{self.axis}", f"_TT{self.axis}"], self.model.columns)
+            error, torque = ((value or 0) / ONE for value in told)
+            found.append(math.floor(error))
+            volts += torque
+        self.rest = sum(found) / len(found), volts / len(found)
         return found
 
     def _look(self) -> Steps[None]:
@@ -364,17 +373,17 @@ class Bench:
         yield from proved(self.c.nonces, f"ST {self.axis}", LINE_S, REFUSAL_S)
 
     def _response(self, capture: Capture, counts: int) -> Response:
-        """From 0, with a little rest before the step, which falls within a sample of the first element."""
+        """With a little rest before the step, which falls within a sample of the first element."""
         volts, error = (capture.of(Channel(name, self.axis)) for name in ("torque", "error"))
         stepped = np.arange(len(error)) >= int(np.argmax(np.abs(error) > abs(counts) / 2))
         actual = np.where(stepped, float(counts), 0.0) - error
         commanded = np.where(np.arange(len(error)) >= 1, float(counts), 0.0)
-        rest = np.zeros(BEFORE)
+        rest, (error_before, volts_before) = np.zeros(BEFORE), self.rest
         return Response(
             capture.interval_s,
             np.concatenate([rest, commanded]),
-            np.concatenate([rest, actual]),
-            np.concatenate([rest + self.inside.offset, volts]),
+            np.concatenate([rest - error_before, actual]),
+            np.concatenate([rest + volts_before, volts]),
         )
 
     def _recording(self, capture: Capture, gains: Gains, wanted: Excitation) -> Recording:

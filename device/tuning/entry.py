@@ -19,7 +19,7 @@ TITLES = {"manual": "Manual", "automatic": "Automatic", "model": "Model-based", 
 TUNED = ("kp", "ki", "kd", "fv", "fa")
 PLACES = 4  # decimals of a kept volt
 AXES = ("X", "Y", "Z", "W")
-MISSING = ("rise_time", "settling_time")  # of the metrics: there may be none
+MISSING = ("rise_time", "settling_time", "rest_time")  # of the metrics: there may be none
 
 
 @dc.dataclass(frozen=True, eq=False)

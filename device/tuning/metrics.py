@@ -31,11 +31,12 @@ class Metrics:
     step: float  # where the commanded position ends less where it began
     rise_time: float | None  # from 10 % to 90 % of the step; None: never that far
     overshoot: float  # part of the step by which the actual position passes its end
-    settling_time: float | None  # until it stays within 2 % of the step (1 count at least); None: it does not stay
+    settling_time: float | None  # until it stays within 2 % of the step (1 count at least); None: not in the last tenth
     steady_error: float  # commanded less actual, mean of the last tenth
     peak_error: float  # the largest |commanded - actual|
     saturated: float  # part of the time in which the motor command is at its limit
     every: float = 0.0  # s between two recorded values
+    rest_time: float | None = None  # until it stays as near to where it comes to rest, which may be beside the end
 
     @property
     def coarse(self) -> bool:
@@ -55,6 +56,19 @@ def passage(position: Vector, level: float) -> float | None:
     return place - 1 + (level - before) / (after - before)
 
 
+def last(response: Response) -> slice:
+    """The elements over which the steady error is averaged."""
+    begin = int(numpy.flatnonzero(numpy.diff(response.commanded))[0])
+    return slice(-max(1, int(LAST * (len(response.commanded) - begin))), None)
+
+
+def stays(away: Vector, band: float, period: float) -> float | None:
+    """When the distance from a place has become smaller than a band for good, s; None: not by the last tenth."""
+    outside = numpy.flatnonzero(numpy.abs(away) > band)
+    place = int(outside[-1]) + 1 if len(outside) else 0
+    return None if place > len(away) - max(1, int(LAST * len(away))) else place * period
+
+
 def measure(response: Response, torque_limit: float) -> Metrics | str:
     """The numbers of a step response; a sentence where there is no step in it."""
     commanded, actual = response.commanded, response.actual
@@ -65,9 +79,8 @@ def measure(response: Response, torque_limit: float) -> Metrics | str:
     gone = (actual[begin:] - actual[begin]) / step  # 0 at the start, 1 at the end
     low, high = passage(gone, 0.1), passage(gone, 0.9)
     error = commanded[begin:] - actual[begin:]
-    outside = numpy.flatnonzero(numpy.abs(commanded[-1] - actual[begin:]) > max(1.0, BAND * abs(step)))
-    settled = int(outside[-1]) + 1 if len(outside) else 0
-    tail = max(1, int(LAST * len(error)))
+    band, steady = max(1.0, BAND * abs(step)), float((commanded - actual)[last(response)].mean())
+    away = commanded[-1] - actual[begin:]
     return Metrics(
         step=step,
         rise_time=None if low is None or high is None else (high - low) * response.period,
@@ -79,11 +92,12 @@ def measure(response: Response, torque_limit: float) -> Metrics | str:
                 else (commanded[-1] - actual[begin:]).max() / -step
             ),
         ),
-        settling_time=None if settled >= len(error) else settled * response.period,
-        steady_error=float(error[-tail:].mean()),
+        settling_time=stays(away, band, response.period),
+        steady_error=steady,
         peak_error=float(numpy.abs(error).max()),
         saturated=float((numpy.abs(response.volts[begin:]) >= torque_limit - AT_LIMIT).mean()),
         every=response.period,
+        rest_time=stays(away - steady, band, response.period),
     )
 
 
@@ -91,6 +105,11 @@ def measured_words(metrics: Metrics, swings: bool) -> str:
     """The response in one sentence."""
     if swings:
         return "The axis vibrates with these gains: take less KP or KI, or more KD."
+    if metrics.settling_time is None and metrics.rest_time is not None:
+        return (
+            f"It rests {abs(metrics.steady_error):.3g} counts beside its end: weight or friction hold it there. "
+            "KI takes such an error away."
+        )
     if metrics.settling_time is None:
         return "The response did not settle within the record."
     saturated = f" The torque was at its limit for {metrics.saturated:.0%} of it." if metrics.saturated > 0.01 else ""

@@ -7,7 +7,9 @@ import math
 import numpy
 import pytest
 
-from device.tuning.metrics import Metrics, Response, measure
+from device.tuning.automatic import NEAR_COUNTS, Seen, search, seen
+from device.tuning.loop import VOLTS, Gains
+from device.tuning.metrics import Metrics, Response, measure, measured_words
 
 DT = 1e-4  # s
 
@@ -58,8 +60,50 @@ def test_what_never_comes_there_has_no_times() -> None:
     short = measured(response(0.8 * (1 - numpy.exp(-t / 0.01))))
     assert (short.rise_time, short.settling_time) == (None, None)
     assert short.steady_error == pytest.approx(200.0, abs=0.1)
+    assert short.rest_time == pytest.approx(0.01 * math.log(800 / 20), abs=2 * DT)  # 20 counts are 2 % of the step
+    assert "rests 200 counts beside its end" in measured_words(short, False)
     swinging = measured(response(1 - 0.5 * numpy.cos(200 * t)))
-    assert swinging.settling_time is None
+    assert swinging.settling_time is None and swinging.rest_time is None
+    assert measured_words(swinging, False) == "The response did not settle within the record."
+
+
+def sagging(before: float, after: float) -> Response:
+    """Errors at rest on both sides of a step of 1000 counts that overshoots by 50; 0.5 V at its end."""
+    one = response(1 - numpy.exp(-numpy.arange(0, 0.4, DT) / 0.01), volts=numpy.full(4050, 0.5))
+    actual = numpy.where(numpy.arange(4050) < 50, -before, one.actual - after)
+    actual[1000] = 1050 - after
+    return Response(DT, one.commanded, actual, one.volts)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "overshoot"),
+    [(60.0, 60.0, 0.05), (-60.0, -60.0, 0.05), (60.0, 40.0, 0.05), (-40.0, 40.0, 0.01), (0.0, 40.0, 0.01)],
+    ids=["hangs", "hangs the other way", "hangs and rubs", "rubs", "comes from rest"],
+)
+def test_a_trial_of_a_hanging_axis_is_judged_without_its_sag(before: float, after: float, overshoot: float) -> None:
+    """Weight pulls to one side before the step and after it; friction leaves the error where it came from."""
+    gains = Gains(kp=8, kd=100, offset=0.1)
+    found = seen(sagging(before, after), gains, False)
+    hangs = before * after > 0
+    assert found.overshoot == pytest.approx(overshoot)
+    assert (found.settled < 0.1) == hangs and math.isinf(found.settled) == (not hangs)
+    assert found.metrics is not None and found.metrics.steady_error == pytest.approx(after)
+    assert found.carried == pytest.approx(0.4)  # V less OF
+
+
+def test_an_integrator_that_still_carries_the_weight_does_not_hide_it() -> None:
+    """KI may be 0 and what it had gathered be there still: without it the error would show."""
+    gains = Gains(kp=16, kd=100)
+    quick = measured(response(1 - numpy.exp(-numpy.arange(0, 0.4, DT) / 0.005)))
+    volts = NEAR_COUNTS * 4 * 16 * VOLTS  # what KP makes of one count (dmc-1412-1414.txt l.4454-4476)
+    for carried, ki in ((0.5 * volts, 0.0), (5 * volts, 0.5)):
+        trials = search(gains)
+        assert next(trials).gains.ki == 0
+        with pytest.raises(StopIteration) as end:
+            trial = trials.send(Seen(quick, carried=carried))
+            while True:
+                trial = trials.send(Seen(quick, carried=carried))
+        assert end.value.value.gains.ki == pytest.approx(ki) and (ki == 0 or trial.gains.ki == ki)
 
 
 def test_a_small_step_settles_within_a_count() -> None:

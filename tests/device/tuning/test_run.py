@@ -10,6 +10,7 @@ import pytest
 
 from codegen.twoletter.fixed import ONE
 from device.download import Job
+from device.simulator.plant import Plant
 from device.tasks import NotAllowed, Stopped
 from device.tuning.automatic import VELOCITY
 from device.tuning.bench import Measured, Wish
@@ -130,6 +131,33 @@ def test_automatic_tuning_makes_it_better_and_puts_the_former_gains_back(tmp_pat
     best = done(rig, run_step(rig.controller, Wish("X", 400, found.gains, seconds=0.4), tmp_path, WHEN))
     assert first is not None and best.metrics is not None and best.metrics.settling_time is not None
     assert best.metrics.settling_time < (first.settling_time or 1.0) and not best.vibrates
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("gravity", "ki"), [(0.5, 0.0), (-0.5, 0.0), (0.5, 1.0)])
+def test_an_axis_that_hangs_is_tuned_and_gets_an_integrator(tmp_path: Path, gravity: float, ki: float) -> None:
+    """With KP 6 and KI 0 half a volt is 68 counts of sag: no step of 500 would settle; KI comes last (l.887)."""
+    rig = ready(plants={"X": Plant(gravity=gravity)})
+    rig.type(f"KI {ki:g}")
+    rig.run(2.0)
+    wish = Wish("X", 500, GOOD, seconds=0.5)
+    found = done(rig, run_automatic(rig.controller, wish, tmp_path, WHEN, lambda m, why: None, velocity=False), 400)
+    assert found.gains is not None and found.gains.ki > 0 and found.gains.kp > 6, found.words
+    best = done(rig, run_step(rig.controller, Wish("X", 500, found.gains, seconds=1.0), tmp_path, WHEN))
+    assert best.metrics is not None and best.metrics.settling_time is not None and not best.vibrates
+    assert abs(best.metrics.steady_error) <= 1
+    assert held(rig) == {**FACTORY, "KI": ki} and rig.simulation.state()["axes"]["X"]["motor_on"]
+
+
+def test_a_hanging_axis_is_drawn_where_it_hangs_before_its_step(tmp_path: Path) -> None:
+    rig = ready(plants={"X": Plant(gravity=0.5)})
+    rig.run(1.0)
+    measured: Measured = done(rig, run_step(rig.controller, Wish("X", 400, Gains(kp=8, kd=100)), tmp_path, WHEN))
+    sag = 0.5 / (4 * 8 * 20 / 65536)  # l.4454-4476: counts at which KP 8 makes half a volt
+    assert -measured.response.actual[0] == pytest.approx(sag, abs=2)
+    assert measured.response.volts[0] == pytest.approx(0.5, abs=0.03)
+    assert measured.metrics is not None and measured.metrics.steady_error == pytest.approx(sag, abs=2)
+    assert "weight or friction" in measured.words
 
 
 def test_never_on_a_drive_in_velocity_mode(tmp_path: Path) -> None:
