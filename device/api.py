@@ -326,6 +326,8 @@ class Controller:
             self.waiting.threads(frozenset(int(value) for value in threads.values() if value >= 0))
         if "time" in values:
             self._events.clock_read(values["time"], sent, now)
+        if self.link.at_work:
+            self.used()
         if self.kind is Kind.MACHINE and self.control and now - self._used > self.idle_limit_s:
             self.release_control("Back to Watch: nothing was done for a while.")
         if self.state is State.LOST:

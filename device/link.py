@@ -90,6 +90,11 @@ class Link:
         """Whether a thread of its own serves the line."""
         return self._thread is not None
 
+    @property
+    def at_work(self) -> bool:
+        """Whether something that a person began still goes on (for the link's own thread)."""
+        return any(task.priority is not Priority.POLL and task.source != "poll" for task in self._ready)
+
     def close(self) -> None:
         self._closing.set()
         if self._thread is not None and self._thread is not threading.current_thread():
