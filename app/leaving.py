@@ -43,6 +43,7 @@ class Leaving(QObject):
         self._agreed = False  # while the window closes as it was agreed
         self._asking: Asking | None = None
         self._then: tuple[Controller, Callable[[], object]] | None = None  # once this one has stopped
+        self._after: tuple[Controller, Callable[[], object]] | None = None  # once what is under way has ended there
         self.left: Controller | None = None  # works, and the person turns away from it all the same
 
     def asked(self, event: QCloseEvent) -> None:
@@ -60,7 +61,8 @@ class Leaving(QObject):
 
         def judge(words: str | None) -> None:
             if words:
-                self._put(title, f"{words} Afterwards STOP and F12 no longer reach it.", "Stop it first", go_on)
+                words = f"{words} Afterwards STOP and F12 no longer reach it."
+                self._put(title, words, "Stop it first", go_on, lambda: self.careful(title, go_on))
             elif words is not None:
                 go_on()
 
@@ -99,6 +101,10 @@ class Leaving(QObject):
     def look(self) -> None:
         """With each tick: judges what the machine has answered, goes on once a stop is proved."""
         self._judge()
+        if self._after is not None and not self._run.doing:
+            (controller, again), self._after = self._after, None
+            if controller is self._connection.controller:
+                again()
         if self._then is None:
             return
         controller, go_on = self._then
@@ -124,16 +130,22 @@ class Leaving(QObject):
             self._asking = None
             asking.then(self._at_once() or UNKNOWN)
 
-    def _put(self, title: str, words: str, stop: str, go_on: Callable[[], object]) -> None:
+    def _put(self, title: str, words: str, stop: str, go_on: Callable[[], object], again: Callable[[], object]) -> None:
+        """`again` asks anew: what is under way is cancelled, which puts back what it changed, and then looked at."""
         controller = self._connection.controller
 
         def leave() -> None:
             self.left = controller
             go_on()
 
-        answers = [("Leave it running", leave)]
-        if not self._run.doing:
-            answers.insert(0, (stop, lambda: self._stop(go_on)))
+        def end() -> None:
+            self._run.cancel()
+            self._after = controller, again
+
+        answers = [(stop, lambda: self._stop(go_on)), ("Leave it running", leave)]
+        if self._run.doing:  # nothing of it goes on without the studio
+            answers = [("Cancel it first" if self._run.job is not None else "Wait for its end", end)]
+            answers.append(("Leave at once", leave))
         self._desk.ask(title, words, answers, "warning")
 
     def _stop(self, go_on: Callable[[], object]) -> None:
@@ -142,7 +154,8 @@ class Leaving(QObject):
 
     def _close(self, words: str | None) -> None:
         if words:
-            self._put(TITLE, f"{words} Without this window there is no STOP and no F12.", "Stop and leave", self._agree)
+            words = f"{words} Without this window there is no STOP and no F12."
+            self._put(TITLE, words, "Stop and leave", self._agree, lambda: self.check(self._close))
         elif words is not None:
             self._agree()
 

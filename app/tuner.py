@@ -69,10 +69,10 @@ class Tuner(QObject):
         self._drawn: list[Curve] = []
         self._trials: list[tuple[Measured, str]] = []
         self._shown_trials = 0
-        self._reading = False
+        self._reading = self._fresh = False  # fresh: of another controller, its gains are not in the fields yet
         self._since = -math.inf  # what was read before this moment is from before a run
         self.model = Modelling(tick, panel, self._excite, self._show_running, self._ended, memory, self)
-        self.feeding = Feeding(panel, self.model, careful, self._moves, self._begin, self._keep, self)
+        self.feeding = Feeding(panel, self.model, careful, self._moves, self._begin, self._keep, self._tops, self)
         panel.judge = self.judge
         panel.axis_chosen.connect(self._axis_chosen)
         panel.start_wanted.connect(self._start)
@@ -108,8 +108,10 @@ class Tuner(QObject):
         limits = [float(setup.counts(Dimension.POSITION, asked.axis, each)) for each in _soft(axis)]
         if limits and not limits[0] <= low <= high <= limits[1]:
             return Judged("", f"That passes a limit of the setup: {self._between(low, high, asked.axis)}.")
+        excites = self._panel.page == MODEL or (self._panel.page == AUTOMATIC and asked.drive == UNSURE)
+        aside = f" (to be identified, by up to {shown(abs(asked.step) // 2, axis)} to either side)" if excites else ""
         return Judged(
-            f"{asked.axis} moves by {shown(asked.step, axis)} {unit_of(axis)} and back, and stays between "
+            f"{asked.axis} moves by {shown(asked.step, axis)} {unit_of(axis)} and back{aside}, and stays between "
             f"{self._between(low, high, asked.axis)}; beyond {guard.error} counts of error its motor goes off."
         )
 
@@ -170,8 +172,7 @@ class Tuner(QObject):
         from device.tuning.run import run_automatic
 
         self._trials, self._shown_trials = [], 0
-        self._panel.automatic.trials.clear()
-        self._panel.automatic.show_result("")
+        self._panel.automatic.clear()
         job = run_automatic(
             self._connection.controller, self.wish(asked), self.folder, self._now(),
             lambda measured, why: self._trials.append((measured, why)), velocity=velocity,
@@ -186,7 +187,7 @@ class Tuner(QObject):
             best = kept[-1] if kept else None
         self._panel.automatic.show_result(found.words, good=found.gains is not None)
         if found.gains is not None:
-            self._panel.manual.gains.show_gains(found.gains)
+            self._panel.manual.gains.show_filter(found.gains)
             self._panel.show_result("Recommended gains are in the fields; the controller has its former ones.")
         if best is not None:
             self._keep(best, "automatic", found.words)
@@ -206,8 +207,19 @@ class Tuner(QObject):
         """The step with the proposed gains, measured and laid over its prediction."""
         proposal = self.model.proposal
         if proposal is not None and proposal.gains is not None:
-            wanted = replace(asked, gains=proposal.gains)
-            self._careful("Tune", lambda: self._run_step(wanted, "model", self._measured))
+            there = self._present.gains.torque_limit if self._present is not None else asked.torque
+            wanted = replace(asked, gains=proposal.gains, torque=min(asked.torque, there))
+            step = partial(self._run_step, wanted, "model", self._measured)
+            self._careful("Tune", partial(self.model.foresee, wanted, step))
+
+    def _tops(self, letter: str) -> tuple[int, int]:
+        """The highest SP and AC that the setup allows an axis."""
+        setup = self._session.document.working_setup
+        speed, rise = (
+            setup.counts(each, letter, setup.bounds(each, letter)[1])
+            for each in (Dimension.SPEED, Dimension.ACCELERATION)
+        )
+        return speed, rise
 
     # ---- what came of it
 
@@ -278,7 +290,7 @@ class Tuner(QObject):
         state = self._connection.controller.state
         unread = self._joined and self._present is None and not self._reading
         if unread and self._panel.isVisible() and state is State.READY:
-            self.read_present()
+            self.read_present(into_fields=self._fresh)
 
     def _show_trials(self) -> None:
         if self._shown_trials == len(self._trials):  # most ticks; what is imported below takes long to load
@@ -296,11 +308,17 @@ class Tuner(QObject):
             self._panel.show_curves(curves, measured.metrics, measured.gains.torque_limit)
 
     def _axis_chosen(self, axis: str) -> None:
+        self._join_pages()
+        self._forget()
+        self.read_present(into_fields=True)
+
+    def _forget(self) -> None:
+        """What is shown belongs to another axis."""
         self._drawn.clear()
         self.model.forget()
-        self._panel.show_curves([], None, 10.0)
-        self._join_pages()
-        self.read_present(into_fields=True)
+        if self._joined:
+            self._panel.automatic.clear()
+            self._panel.show_curves([], None, 10.0)
 
     def _opened(self) -> None:
         """A page, for the first time or again: DV may be another one by now."""
@@ -319,8 +337,8 @@ class Tuner(QObject):
     def _another(self) -> None:
         """Another controller: what was known belongs to the one before."""
         self._since = -math.inf
-        self.model.forget()
-        self._present = None
+        self._forget()
+        self._present, self._fresh = None, True
         if self._joined:
             self._panel.show_present(None)
             self._book.refresh()
@@ -339,7 +357,7 @@ class Tuner(QObject):
             self._reading = False
             if failure_of(future) or controller is not self._connection.controller or axis != self._panel.axis:
                 return
-            self._present = future.result()
+            self._present, self._fresh = future.result(), False
             self._panel.show_present(future.result().gains, future.result().dual)
             if into_fields and typed == self._panel.manual.gains.texts:  # nobody has typed meanwhile
                 self._panel.manual.gains.show_gains(future.result().gains)

@@ -23,7 +23,10 @@ Moves = Callable[[Asked, "Sweep", "Gains"], "Job[Any]"]
 
 
 class Feeding(QObject):
-    """`moves` starts the two moves between guards, `begin` follows the run, `keep` writes it into the logbook."""
+    """`moves` starts the two moves between guards, `begin` follows the run, `keep` writes it into the logbook.
+
+    `tops` tells the highest SP and AC of an axis.
+    """
 
     def __init__(
         self,
@@ -33,9 +36,11 @@ class Feeding(QObject):
         moves: Moves,
         begin: Begin,
         keep: Callable[[Measured, str, str], None],
+        tops: Callable[[str], tuple[int, int]],
         parent: QObject,
     ) -> None:
         super().__init__(parent)
+        self._tops = tops
         self._panel, self._model, self._careful = panel, model, careful
         self._moves, self._begin, self._keep = moves, begin, keep
         panel.moves_wanted.connect(lambda asked: careful("Tune", lambda: self._compare(asked)))
@@ -46,7 +51,8 @@ class Feeding(QObject):
             return
         from device.tuning.feed import sweep
 
-        way = sweep(self._model.estimate.plant, asked.step, self._model.period, asked.torque)
+        tops = self._tops(asked.axis)
+        way = sweep(self._model.estimate.plant, asked.step, self._model.period, asked.torque, tops)
         without = replace(asked, gains=replace(proposal.gains, fv=0.0, fa=0.0))
         job = self._moves(without, way, replace(proposal.gains, fv=found.fv, fa=found.fa))
         self._begin(job, f"Move of {asked.axis}", lambda measured: self._compared(measured, found))

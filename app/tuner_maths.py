@@ -11,11 +11,12 @@ from device.tuning.design import Design, Refusal, Target, design, propose
 from device.tuning.excite import NotIdentified
 from device.tuning.identify import Estimate, identify
 from device.tuning.loop import Bode, Gains, Margins, bode, margins
-from device.tuning.metrics import Response
+from device.tuning.metrics import AT_LIMIT, Response
 from device.tuning.predict import predict, step
 
 T = TypeVar("T")
 HERTZ = 6.283185307179586  # rad/s
+BEFORE = 12  # samples at rest before a predicted step
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +29,12 @@ class Proposal:
     bode: Bode | None
     predicted: Response | None
     words: str
+
+    def foresees(self, counts: int, torque: float) -> bool:
+        """Whether it is the step of this size with this torque limit that was predicted."""
+        if self.predicted is None or self.gains is None:
+            return False
+        return self.predicted.commanded[-1] == counts and abs(self.gains.torque_limit - torque) < AT_LIMIT
 
 
 def estimated(excited: Excited) -> Estimate | NotIdentified:
@@ -72,11 +79,21 @@ def first_proposed(
 
 
 def _good(estimate: Estimate, wanted: Target, found: Design, period: float, counts: int, seconds: float) -> Proposal:
-    commanded = step(counts, max(round(seconds / period), 2), at=12)
+    commanded = step(counts, max(round(seconds / period), 2), at=BEFORE)
     return Proposal(
         wanted, found.gains, found.margins, bode(estimate.plant, found.gains, period),
         predict(estimate.plant, found.gains, commanded, period), " ".join(found.notes),
     )  # fmt: skip
+
+
+def again(
+    estimate: Estimate, proposal: Proposal, period: float, counts: int, torque: float, seconds: float
+) -> Proposal:
+    """The same gains for another step, or with another torque limit."""
+    assert proposal.gains is not None
+    gains = replace(proposal.gains, torque_limit=torque)
+    commanded = step(counts, max(round(seconds / period), 2), at=BEFORE)
+    return replace(proposal, gains=gains, predicted=predict(estimate.plant, gains, commanded, period))
 
 
 def estimate_words(estimate: Estimate) -> str:

@@ -67,8 +67,7 @@ class Modelling(QObject):
         self.estimate = self.proposal = self._excited = self._next = None
         self._to_draw = False
         if self._panel.bode_plot is not None:
-            self._panel.model.show_usable(False)
-            self._panel.model.show_feeds("")
+            self._panel.model.clear()
             self._panel.bode_plot.show_bode(None)
 
     def look(self) -> None:
@@ -82,8 +81,10 @@ class Modelling(QObject):
         if self.estimate is None:
             return {}
         from app.tuner_maths import estimate_data
+        from widgets.tuner.pages import margin_words
 
-        return estimate_data(self.estimate)
+        margins = self.proposal.margins if self.proposal is not None else None
+        return {**estimate_data(self.estimate), "loop": "" if margins is None else margin_words(margins)}
 
     # ---- what the axis is
 
@@ -191,10 +192,38 @@ class Modelling(QObject):
         model.show_design(proposal.gains, proposal.margins, proposal.words)
         model.show_feeds(self.feeds.words if self.feeds is not None else "")
         if proposal.gains is not None:
-            self._panel.manual.gains.show_gains(proposal.gains)
+            self._panel.manual.gains.show_filter(proposal.gains)
             self._to_draw = True
         else:
             self._panel.show_curves((), None, 10.0)  # what was predicted belongs to another target
+
+    def foresee(self, asked: Asked, then: Callable[[], None]) -> None:
+        """Goes on once the predicted step is this one, of this size and with this torque at most."""
+        proposal, estimate, excited = self.proposal, self.estimate, self._excited
+        if proposal is None or proposal.predicted is None or estimate is None or excited is None:
+            return
+        if proposal.foresees(asked.step, asked.torque):
+            then()
+            return
+
+        def work() -> Proposal:
+            from app.tuner_maths import again
+
+            return again(estimate, proposal, excited.period, asked.step, asked.torque, min(asked.seconds, LONGEST_S))
+
+        def done(future: Future[Any]) -> None:
+            self._ended()
+            if proposal is not self.proposal:
+                return
+            if failure := failure_of(future):
+                self._panel.show_result(failure, good=False)
+                return
+            self.proposal = future.result()
+            self._draw_predicted()
+            then()
+
+        self._running("Predicting this step…")
+        self._tick.when_done(in_background(work), done)
 
     @property
     def period(self) -> float:

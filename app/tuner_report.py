@@ -61,13 +61,15 @@ def _settled(entry: Entry) -> str:
 
 
 def _section(setup: Setup, entry: Entry) -> str:
-    step = entry.step / scale_of(setup.axis(entry.axis))
+    axis, what = setup.axis(entry.axis), "Move" if entry.method == "move" else "Step"
+    step = f"{entry.step / scale_of(axis):.4g} {unit_of(axis)}"
     told = [
-        f"Step of {step:.4g} {unit_of(setup.axis(entry.axis))} ({entry.step} counts) with {gains_words(entry.gains)}; "
+        f"{what} of {step} ({entry.step} counts) with {gains_words(entry.gains)}; "
         f"torque limit {entry.gains.torque_limit:.3g} V.",
         metrics_words(entry.metrics),
-        entry.words if entry.method == "automatic" else "",
+        entry.words if entry.method in ("automatic", "move") else "",
         str(entry.estimate.get("words", "")),
+        str(entry.estimate.get("loop", "")),
     ]
     note = f"<p><i>{escape(entry.note)}</i></p>" if entry.note else ""
     words = "<br/>".join(escape(each) for each in told if each)

@@ -17,6 +17,7 @@ from device.tuning.plant import AxisPlant, Vector
 
 SPEED_UNIT = 1024.0  # samples a second at TM 1000: SP and AC count in samples
 PUSH = 0.4  # of the torque limit for the acceleration of the move that compares
+SLOWEST = (2, 1024)  # SP and AC
 SHORTEST_S, REST_S = 0.2, 0.25  # of that move, and of the record behind it
 
 
@@ -70,10 +71,17 @@ def feeds(plant: AxisPlant, period: float) -> Feeds:
     return Feeds(fv, fa, " ".join([f"For moves: FV {fv:g} against friction, FA {fa:g} for the inertia.", *told]))
 
 
-def sweep(plant: AxisPlant, counts: int, period: float, torque: float) -> Sweep:
-    """As quick as an acceleration with a part of the torque allows."""
-    seconds = max(SHORTEST_S, math.sqrt(4.5 * abs(counts) / (PUSH * torque * plant.gain)))
-    unit = SPEED_UNIT * period
-    speed, rise = 1.5 * abs(counts) / seconds * unit, 4.5 * abs(counts) / seconds**2 * unit**2
+def sweep(plant: AxisPlant, counts: int, period: float, torque: float, tops: tuple[int, int]) -> Sweep:
+    """As quick as an acceleration with a part of the torque allows; `tops`: the machine's SP and AC, never passed."""
+    way, unit = abs(counts), SPEED_UNIT * period
+    tops = max(tops[0], SLOWEST[0]), max(tops[1], SLOWEST[1])
+    shortest = (
+        SHORTEST_S, math.sqrt(4.5 * way / (PUSH * torque * plant.gain)),
+        1.5 * way * unit / tops[0], math.sqrt(4.5 * way / tops[1]) * unit,
+    )  # fmt: skip
+    seconds = max(shortest)
+    speed, rise = 1.5 * way / seconds * unit, 4.5 * way / seconds**2 * unit**2
     held = int(COMMANDS["SP"].stored(round(speed) << 16)) >> 16, int(COMMANDS["AC"].stored(round(rise) << 16)) >> 16
-    return Sweep(counts, max(2, held[0]), max(1024, held[1]), seconds + REST_S, period)
+    speed, rise = (max(least, min(one, top)) for one, top, least in zip(held, tops, SLOWEST, strict=True))
+    ramp = min(speed / rise, math.sqrt(way / rise))  # as the controller will, with what its registers keep
+    return Sweep(counts, speed, rise, (way / (rise * ramp) + ramp) * unit + REST_S, period)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
@@ -108,6 +109,10 @@ class GainsBox(QWidget):
         for name in NAMES:
             self.fields[name].setText(shown(getattr(gains, name.lower())))
         self._changed()
+
+    def show_filter(self, gains: Gains) -> None:
+        """Puts KP, KI and KD into the fields; the feed-forwards there stay."""
+        self.show_gains(replace(gains, fv=self.gains.fv, fa=self.gains.fa))
 
     def show_there(self, gains: Gains | None) -> None:
         """What the controller holds."""

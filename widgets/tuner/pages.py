@@ -94,6 +94,11 @@ class AutomaticPage(QWidget):
         self.trials.addItem(QListWidgetItem(f"{gains_words(gains)}\n{why} {words}"))
         self.trials.scrollToBottom()
 
+    def clear(self) -> None:
+        """No trials yet."""
+        self.trials.clear()
+        self.show_result("")
+
     def show_result(self, words: str, good: bool = True) -> None:
         """What it recommends, or why it gave up."""
         set_text(self.result, words)
@@ -138,6 +143,17 @@ class ModelPage(QWidget):
         column.addLayout(row)
         column.addStretch(1)
         self.compare.clicked.connect(self.moves_wanted)
+        self.show_usable(False)
+
+    def clear(self) -> None:
+        """Nothing is known, of another axis or another machine."""
+        self.show_estimate(IDENTIFY)
+        show_role(self.estimate, "quiet")
+        self.show_design(Gains(), None, "")
+        set_text(self.result, "")
+        self.show_feeds("")
+        for field in (self.crossover, self.phase):
+            field.clear()
         self.show_usable(False)
 
     def show_usable(self, designed: bool, reason: str = "") -> None:

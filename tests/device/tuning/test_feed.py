@@ -23,6 +23,7 @@ RUB, INERTIA, TORQUE, LINES = 5e-3, 2e-3, 0.1, 1000.0  # N·m·s/rad, kg·m², N
 COUNTS = 4 * LINES / (2 * math.pi)  # a radian (dmc-1412-1414.txt l.4440)
 AXIS = AxisPlant(gain=TORQUE / INERTIA * COUNTS, pole=RUB / INERTIA)
 STEP = 4000
+FASTEST = (8_000_000, 67_107_840)  # SP and AC of the controller
 
 
 @pytest.mark.parametrize("tm", [1000, 500])
@@ -40,10 +41,23 @@ def test_what_the_register_can_not_hold_is_said() -> None:
     assert found.fa == 8191 and "FA would have to be 13333; the controller takes 8191 at most" in found.words
 
 
+@pytest.mark.parametrize("tops", [FASTEST, (6000, 67_107_840), (8_000_000, 40_000), (3000, 20_000), (0, 0)])
+@pytest.mark.parametrize("tm", [1000, 500])
+def test_the_move_that_compares_never_passes_the_top_speed_of_the_machine(tops: tuple[int, int], tm: int) -> None:
+    period = tm / 1_024_000
+    way = sweep(AXIS, STEP, period, 9.9982, tops)
+    assert 2 <= way.speed <= max(tops[0], 2) and 1024 <= way.acceleration <= max(tops[1], 1024)
+    # SP and AC count in 1024 samples; a trapezium takes way/speed + speed/rise, a triangle 2 √(way/rise)
+    speed, rise = way.speed / (1024 * period), way.acceleration / (1024 * period) ** 2
+    lasts = STEP / speed + speed / rise if speed**2 / rise < STEP else 2 * math.sqrt(STEP / rise)
+    assert way.seconds == pytest.approx(lasts + 0.25)  # and rests a quarter of a second
+    assert way.commanded(way.seconds / 99, 100)[-1] == STEP
+
+
 def test_with_them_the_following_error_of_a_move_almost_goes(tmp_path: Path) -> None:
     rig = ready(plants={"X": Plant(inertia=INERTIA, viscous_friction=RUB)})
     before = registers(rig)
-    found, way = feeds(AXIS, 1 / 1024), sweep(AXIS, STEP, 1 / 1024, 9.9982)
+    found, way = feeds(AXIS, 1 / 1024), sweep(AXIS, STEP, 1 / 1024, 9.9982, FASTEST)
     wish, more = Wish("X", STEP, Gains(kp=12, kd=200)), Gains(kp=12, kd=200, fv=found.fv, fa=found.fa)
     job = run_moves(rig.controller, wish, way, more, tmp_path, WHEN)
     first: Measured
