@@ -28,6 +28,7 @@ class Broken:
     name: str  # as in "the tuning of axis X"
     back: str  # what putting them back does, a sentence
     motor_off: bool = False
+    values: str = ""  # what was changed, where it is more than gains
 
 
 TUNING = Broken(
@@ -40,6 +41,7 @@ STEP = Broken(
     "commissioning",
     "Putting them back switches the motor off, moves nothing and burns nothing.",
     motor_off=True,
+    values="settings",
 )
 
 
@@ -93,18 +95,30 @@ class Offer(QObject):
 
     def offer(self, controller: Controller) -> None:
         """Asks about the axes of this controller, one after the other."""
-        left = self._left(controller)
-        if left:
-            from device.former import now_there
+        if not self._folder.is_dir():
+            return
+        from device.former import left_behind, named, now_there
 
+        if not left_behind(self._folder):
+            return
+        if controller.identity is None or controller.identity.serial is None:
+            self._reading = controller
+            self._tick.when_done(named(controller), partial(self._named, controller))
+        elif left := self._left(controller):
             former = left[0]
             self._reading = controller
             self._tick.when_done(now_there(controller, former), partial(self._compare, controller, former))
 
+    def _named(self, controller: Controller, future: Future[Any]) -> None:
+        """Its serial number was disturbed when it was met: it has been asked once more."""
+        self._reading = None
+        if failure_of(future):
+            self._looked_at = None
+        elif controller.identity is not None and controller.identity.serial is not None:
+            self.offer(controller)
+
     def _left(self, controller: Controller) -> list[Former]:
         """The oldest of each axis: it holds the values from before all of them."""
-        if not self._folder.is_dir():
-            return []
         from device.former import left_behind, meant
 
         found: dict[str, Former] = {}
@@ -119,7 +133,7 @@ class Offer(QObject):
         from device.former import left_behind
 
         for former in left_behind(self._folder)[:1]:
-            values = f"gains ({former.gains()})" if former.gains() else "limits and speeds"
+            values = self._broken.values or f"gains ({former.gains()})"
             self.said.emit(
                 f"The {self._broken.name} of axis {former.axis} of {former.who} was interrupted. Connect it: its "
                 f"former {values} are offered first."
@@ -178,7 +192,7 @@ class Offer(QObject):
 
     def _keep(self, controller: Controller, former: Former) -> None:
         self._forget(controller, former)
-        were = former.gains() or "its limits and speeds"
+        were = "other " + self._broken.values if self._broken.values else former.gains()
         self.said.emit(f"Axis {former.axis} keeps what the controller holds; before it had {were}.")
 
     def _forget(self, controller: Controller, former: Former) -> None:

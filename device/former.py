@@ -6,6 +6,7 @@ cable, a computer that died) the file stays, and `left_behind` finds it: putting
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -235,6 +236,18 @@ def _text(name: str, value: Value) -> str:
 # ------------------------------------------------------------------ after a crash
 
 
+def named(c: Controller) -> Future[None]:
+    """The serial number of a controller that was met without one, as a disturbed line leaves it."""
+    return c.run(_named(c), Priority.USER, "user")
+
+
+def _named(c: Controller) -> Steps[None]:
+    assert c.model is not None  # it is ready
+    told = yield from exact(c.nonces, ["_BN"], c.model.columns)
+    if c.identity is not None and told[0] is not None:
+        c.identity = dataclasses.replace(c.identity, serial=told[0] // ONE)
+
+
 def now_there(c: Controller, former: Former) -> Future[dict[str, Value]]:
     """What the controller holds of it at present."""
     return c.run(_there(c, former), Priority.USER, "user")
@@ -259,5 +272,6 @@ def putting_back(c: Controller, former: Former, *, motor_off: bool = False) -> S
     if motor_off:
         yield from said(c, f"MO {axis}")
     yield from _back(c, former)
-    what = f"the gains from before: {former.gains()}" if former.gains() else "the limits and speeds from before"
+    gains = f"the gains from before: {former.gains()}"
+    what = "the settings from before" if motor_off else gains
     return f"Axis {axis} has {what}.{' Its motor is off.' if motor_off else ''} Nothing was burned."

@@ -5,7 +5,8 @@ no power, the wrong polarity) is switched off by the controller itself, in the s
 this computer lives or not. Former values are on disk before the first change, and put back with the motor off.
 
 How far a motor runs whose encoder dies on the way depends on how much error is left to the limit. So every move begins
-with a very small error limit, and with it little force; where that ends it, it goes on with a slightly larger one.
+with a very small error limit, and with it little force; where that ends it, it goes on with a slightly larger one. And
+so that little error is little force whatever the axis was tuned to, no gain is above that of the factory meanwhile.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from typing import TYPE_CHECKING
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from device.backing_up import exact
+from device.backup import Value
 from device.commissioning.guarding import columns_of, exchange_of, guarded, power_off, switch_off
 from device.commissioning.judge import STIRRED, Moved, joined, toggling
 from device.download import Job
@@ -42,6 +44,7 @@ LARGEST_ERROR = 400  # counts: an axis with much friction needs more than the us
 FEELERS = (10, 10, 10)  # error limits that are tried first, counts; a dead channel may look still once
 SILENT = 20  # counts: no more is tried by itself where the reading says nothing; what the axis does, only eyes can tell
 GROWTH = Fraction(13, 10)  # of the error limit from try to try
+GAINS = ("KP", "KD", "FV", "FA")
 RAN = 40  # counts backwards that are no sagging of a load that hangs
 SPEED, RAMP = 1000, 5120  # counts/s, counts/s²: little error is needed to follow, so the limit can be small
 MARGIN = 200  # counts beyond the target before it is switched off from here
@@ -91,7 +94,8 @@ def move(c: Controller, trial: Trial, folder: Path, now: datetime, job: Job[Move
     yield from _as_set_up(c, model, trial)
     if trial.stepper:
         return (yield from guarded(c, trial.axis, folder, now, lambda f: _stepping(c, trial, f, job), place="RP"))
-    return (yield from guarded(c, trial.axis, folder, now, lambda former: _climbing(c, trial, former, job)))
+    climbing = guarded(c, trial.axis, folder, now, lambda former: _climbing(c, trial, former, job), also=GAINS)
+    return (yield from climbing)
 
 
 def _as_set_up(c: Controller, model: Model, trial: Trial) -> Steps[None]:
@@ -164,7 +168,7 @@ def _driven(c: Controller, trial: Trial, start: int, former: Former, job: Job[Mo
     }
     pace = {"SP": scaled(SPEED), "AC": scaled(RAMP), "DC": scaled(RAMP), "IT": ONE}
     patience = {"KI": 0}  # it would push harder and harder against a reading that stands
-    yield from assign(c, axis, guards | pace | patience)
+    yield from assign(c, axis, guards | pace | patience | _soft(former))
     job.show("moving", 0, abs(trial.counts))
     yield from said(c, f"SH {axis}")
     if trial.before:
@@ -176,6 +180,12 @@ def _driven(c: Controller, trial: Trial, start: int, former: Former, job: Job[Mo
         if not told[0]:
             raise  # else it ran away as soon as its motor was on: that is what is looked for
     return (yield from _watched(c, trial, start, exchange, job))
+
+
+def _soft(former: Former) -> dict[str, Value]:
+    """Gains up to those of the factory, softer ones as they are; a stepper has none."""
+    most = {name: scaled(Fraction(str(COMMANDS[name].default))) for name in GAINS if name in former.values}
+    return {name: min(value, former.values[name]) for name, value in most.items()}
 
 
 def _watched(c: Controller, trial: Trial, start: int, exchange: Exchange, job: Job[Moved]) -> Steps[Moved]:

@@ -69,6 +69,8 @@ def test_a_fault_is_recognised_and_nothing_runs_far(fault: str, tmp_path: Path) 
 @pytest.mark.parametrize(("model", "baud"), [("ssc2", 9600), ("dmc1412", 19200)])
 def test_a_healthy_axis_comes_to_its_target(model: str, baud: int, tmp_path: Path) -> None:
     machine = Machine(model, baud=baud)
+    if model == "ssc2":
+        machine.ask("KP 40;KD 400")  # tuned stiffly
     moved = machine.try_move(tmp_path)
     assert judge_polarity(moved).verdict is Verdict.PASSED
     assert moved.way == pytest.approx(300, abs=30)
@@ -278,6 +280,32 @@ def test_nothing_runs_far_on_any_machine(seed: int, tmp_path: Path) -> None:
         assert machine.furthest < MOST, number
         furthest = max(furthest, machine.furthest)
     name = f"furthest way in a commissioning step, machines {seed}"
+    record(name, "pytest tests/device/commissioning", seed, furthest, "counts")
+
+
+STIFF = ((1023, 64), (1023, 4095), (200, 2000), (50, 500), (20, 4095))  # up to the largest there are (l.871, 878)
+
+
+@pytest.mark.parametrize("seed", range(count(1, 10)))
+def test_nothing_runs_far_whatever_the_axis_was_tuned_to(seed: int, tmp_path: Path) -> None:
+    """With the gains it was tuned to an error of 60 counts would be the whole torque."""
+    seeds = random.Random(3000 + seed)
+    furthest = 0.0
+    for number in range(count(2, 40)):
+        stiff, fault = STIFF[number % len(STIFF)], ("dead", "a", "reversed", "dies")[number % 4]
+        faults: dict[str, dict[str, Any]] = {"a": {"dead_channel": "a"}, "reversed": {"motor_reversed": True}}
+        machine = a_machine(seeds, **faults.get(fault, {}))
+        machine.ask(f"KP {stiff[0]};KD {stiff[1]};FA 20;FV 20")
+        if fault == "dead":
+            machine.kill_encoder()
+        elif fault == "dies":
+            machine.dies(seeds.choice("ab"), seeds.uniform(1, 200))
+        moved = machine.try_move(tmp_path, Trial("X", 300, seeds.choice([60, 400])))
+        assert judge_polarity(moved).verdict is Verdict.FAILED, (number, moved)
+        assert machine.furthest < MOST, number
+        assert machine.result(machine.controller.read("_KPX", "_KDX", "_FAX", "_FVX")) == (*stiff, 20, 20)
+        furthest = max(furthest, machine.furthest)
+    name = f"furthest way in a commissioning step of a stiff axis, machines {seed}"
     record(name, "pytest tests/device/commissioning", seed, furthest, "counts")
 
 
