@@ -17,13 +17,15 @@ from codegen.disk import FileUnreadable, save_text
 from codegen.files import setup_dumps, setup_loads
 from codegen.models import MODELS
 from device.capture import BY_NAME, SLOWEST, Capture, Channel
+from device.capture import channels as recorded_by
 
 FORMAT, VERSION = "twoletter capture", 2
 EVEN = 1  # the version whose values follow each other evenly; live ones bring their times, older programs say so
 CSV, NUMPY = ".csv", ".npz"
 MARK = "# "
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")  # not all that float() takes is one here
-DAMAGE = (zipfile.BadZipFile, zlib.error, KeyError, ValueError, OSError, EOFError, NotImplementedError)
+DAMAGE = (zipfile.BadZipFile, zlib.error, KeyError, ValueError, OSError, EOFError, NotImplementedError, MemoryError)
+CHANGED = "changed, as a spreadsheet does when it saves; open the file as it was saved here"
 MOST = 1_000_000  # values of a channel; no controller holds as many
 
 
@@ -71,7 +73,8 @@ def dumps(capture: Capture) -> str:
         if scale != 1.0:
             names.append(f"{channel.label} {unit}")
             columns.append(capture.of(channel) / scale)
-    lines = [MARK + json.dumps(_about(capture), ensure_ascii=False), ",".join(names)]
+    about = json.dumps(_about(capture) | {"columns": names}, ensure_ascii=False)
+    lines = [MARK + about, ",".join(names)]
     lines += [",".join(map(_text, row)) for row in zip(*(column.tolist() for column in columns), strict=True)]
     return "\n".join(lines) + "\n"
 
@@ -80,12 +83,15 @@ def loads(text: str) -> Capture:
     """A capture from the text of its file; FileUnreadable says what is wrong in it."""
     lines = text.splitlines()
     if not lines or not lines[0].startswith(MARK + "{"):
+        if lines and FORMAT in lines[0]:
+            raise FileUnreadable(f"its first line was {CHANGED}")
         raise FileUnreadable("it does not begin with the line that says so")
     about = _about_of(lines[0][len(MARK) :])
     channels = _channels(about)
-    rows, columns_there = [], len(lines[1].split(",")) if len(lines) > 1 else 0
-    if columns_there < 1 + len(channels):
-        raise FileUnreadable("line 2 does not name the columns")
+    heads = lines[1].split(",") if len(lines) > 1 else []
+    if len(heads) < 1 + len(channels) or heads != about.get("columns", heads):  # moved ones would be mistaken
+        raise FileUnreadable(f"line 2, the names of its columns, is missing or was {CHANGED}")
+    rows, columns_there = [], len(heads)
     for number, line in enumerate(lines[2:], 3):
         cells = line.split(",")
         if len(cells) != columns_there:  # a decimal comma would make two numbers of one
@@ -152,10 +158,10 @@ def _about_of(text: str) -> dict[str, Any]:
     try:
         about = json.loads(text)
     except (ValueError, RecursionError):
-        raise FileUnreadable("the line that says what it is cannot be read") from None
+        raise FileUnreadable(f"its first line cannot be read: it was cut off, or {CHANGED}") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
         raise FileUnreadable("it does not say that it is one")
-    if not isinstance(about.get("version"), int) or about["version"] > VERSION:
+    if about.get("version") not in (EVEN, VERSION):
         raise FileUnreadable(f"a newer program wrote it (version {about.get('version')}, this one knows {VERSION})")
     return about
 
@@ -170,6 +176,11 @@ def _channels(about: dict[str, Any]) -> tuple[Channel, ...]:
         found.append(Channel(*texts))
     if not found or len(set(found)) < len(found):
         raise FileUnreadable("it names no channels, or one twice")
+    model = about.get("model")
+    there = recorded_by(MODELS[model]) if isinstance(model, str) and model in MODELS else found
+    strange = next((each.label for each in found if each not in there), "")
+    if strange:
+        raise FileUnreadable(f"it names {strange}, which a controller of its type ({model}) does not record")
     return tuple(found)
 
 
@@ -187,7 +198,9 @@ def _capture(
     if not all(isinstance(text, str) for text in (model, *texts.values())) or (model and model not in MODELS):
         raise FileUnreadable("what it says about itself cannot be read")
     setup = about.get("setup")
-    return Capture(
+    if not isinstance(setup, dict | None):
+        raise FileUnreadable("its setup cannot be read")
+    capture = Capture(
         channels=channels,
         values=values,
         exponent=_whole(about, "exponent", 1, SLOWEST),
@@ -196,10 +209,15 @@ def _capture(
         early=_whole(about, "early", 0, MOST),
         model=str(model),
         complete=bool(about.get("complete")),
-        setup=setup_loads(json.dumps(setup)) if isinstance(setup, dict) else None,
+        setup=setup_loads(json.dumps(setup)) if setup is not None else None,
         moments=_moments(times, count) if about["version"] > EVEN else None,
         **{name: str(text) for name, text in texts.items()},
     )
+    if times.shape != (count,) or not np.allclose(times, capture.times, rtol=1e-9, atol=1e-9):
+        raise FileUnreadable(
+            "its times do not follow each other as they were captured: its lines were moved or changed"
+        )
+    return capture
 
 
 def _moments(times: np.ndarray[Any, Any], count: int) -> np.ndarray[Any, Any]:

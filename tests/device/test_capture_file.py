@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +65,26 @@ def test_a_spreadsheet_finds_times_counts_and_units() -> None:
     assert first[1] == "-2147483648" and float(first[4]) == pytest.approx(-2147483648 / 500.5)
 
 
+def as_in_germany(text: str) -> str:
+    """Opened by a spreadsheet and saved: semicolons between the cells, decimal commas, quotes doubled."""
+    first, *rest = text.splitlines()
+    whole = '"' + first.replace('"', '""') + '"'
+    return "\n".join([whole, *(line.replace(",", ";").replace(".", ",") for line in rest)]) + "\n"
+
+
+def told_otherwise(text: str, **more: object) -> str:
+    """Something else in the line that says what it is."""
+    first, rest = text.split("\n", 1)
+    return "# " + json.dumps(json.loads(first.removeprefix("# ")) | more) + "\n" + rest
+
+
+def without_column(text: str, column: int) -> str:
+    """Somebody took one out."""
+    first, *rest = text.splitlines()
+    cells = [line.split(",") for line in rest]
+    return "\n".join([first, *(",".join(line[:column] + line[column + 1 :]) for line in cells)]) + "\n"
+
+
 @pytest.mark.parametrize(
     ("harm", "words"),
     [
@@ -85,6 +106,23 @@ def test_a_spreadsheet_finds_times_counts_and_units() -> None:
         (lambda text: text.replace("9.9998", "9_9998"), "line 3: “9_9998” is not a number"),
         (lambda text: text.replace("9.9998", "٩"), "is not a number"),
         (lambda text: text[:200], "cannot be read"),
+        (lambda text: told_otherwise(text, setup=[1]), "setup cannot be read"),
+        (
+            lambda text: text.replace('["position", "X"]', '["position", "Z"]'),
+            "Position Z, which a .* type .ssc2. does not",
+        ),
+        (
+            lambda text: text.replace("Position X counts,Motor command Y V", "Motor command Y V,Position X counts"),
+            "line 2, the names of its columns, is missing or was changed, as a spreadsheet",
+        ),
+        (lambda text: without_column(text, 1), "line 2, the names of its columns"),
+        (
+            lambda text: "\n".join([*text.splitlines()[:2], *sorted(text.splitlines()[2:], key=lambda line: line[1:])]),
+            "its times do not follow each other as they were captured",
+        ),
+        (lambda text: text.replace('"tm": 250.0', '"tm": 500.0'), "its times do not follow"),
+        (lambda text: as_in_germany(text), "its first line was changed, as a spreadsheet does when it saves"),
+        (lambda text: "\n".join([text.splitlines()[0], *as_in_germany(text).splitlines()[1:]]), "line 2, the names of"),
     ],
 )
 def test_a_damaged_text_is_one_sentence(harm, words: str, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
@@ -105,3 +143,23 @@ def test_a_damaged_numpy_file_is_one_sentence(tmp_path: Path) -> None:
             load(path)
     with pytest.raises(FileUnreadable, match="cannot be opened"):
         load(tmp_path / "none.csv")
+
+
+def test_numbers_of_a_numpy_file_that_do_not_belong_together_are_refused(tmp_path: Path) -> None:
+    """Somebody has worked on them: other times, fewer channels, whole numbers, more than any memory holds."""
+    path = tmp_path / "x.npz"
+    save(path, EXAMPLE)
+    with np.load(path) as file:
+        there = {name: file[name] for name in file.files}
+    for more, words in (
+        ({"times": there["times"][::-1]}, "its times do not follow each other as they were captured"),
+        ({"times": there["times"][:2]}, "its times do not follow"),
+        ({"values": there["values"][:2]}, "do not fit its channels"),
+        ({"values": there["values"].astype(np.int32)}, "do not fit its channels"),
+        ({"values": there["values"][:, :2]}, "2 values of each channel are there, 3 were saved"),
+        ({"about": np.array([1.5])}, "it does not say that it is one"),
+    ):
+        np.savez(path, **(there | more))
+        with pytest.raises(FileUnreadable, match=words) as told:
+            load(path)
+        assert str(told.value).startswith("x.npz is not a capture: ") and "\n" not in str(told.value)
