@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from codegen.models import Model
@@ -79,6 +80,13 @@ class Room:
         place = next((n for n, text in enumerate(listing.split("\n")) if re.search(r"(?:^|[;\s])R[ACD]\b", text)), None)
         if place is not None:
             raise NotAllowed(f"{NOT}: the running program records by itself (line {place}). Halt it first.")
+        for line, item in _made(listing):
+            known = isinstance(item.size, nodes.Number) or (yield from self._talk.known(f"{item.name}[0]"))
+            if not known:
+                raise NotAllowed(
+                    f"{NOT}: the running program will make {item.name}[] in line {line}, of a size that is not known "
+                    "here; the capture could take its room. Capture when it has, or halt it first."
+                )
         return _wanted(listing)
 
     def _room(self, model: Model, reserved: int) -> Steps[None]:
@@ -152,13 +160,15 @@ def _names(first: str, count: int) -> list[str]:
     return [first[:-1] + letter for letter in "ABCD"[:count]]
 
 
-def _wanted(listing: str) -> int:
-    """Elements the DM of a program ask for, as far as they are plain numbers."""
-    total = 0
-    for line in parse(listing).lines:
+def _made(listing: str) -> Iterator[tuple[int, nodes.Dimension]]:
+    """Every array that a program makes, and the line in which it does."""
+    for number, line in enumerate(parse(listing).lines):
         for statement in line.statements:
             if isinstance(statement, nodes.Command) and statement.name == "DM":
-                for item in statement.arguments:
-                    if isinstance(item, nodes.Dimension) and isinstance(item.size, nodes.Number):
-                        total += item.size.scaled // nodes.ONE
-    return total
+                yield from ((number, item) for item in statement.arguments if isinstance(item, nodes.Dimension))
+
+
+def _wanted(listing: str) -> int:
+    """Elements the DM of a program ask for, as far as they are plain numbers."""
+    sizes = [item.size for _, item in _made(listing)]
+    return sum(size.scaled // nodes.ONE for size in sizes if isinstance(size, nodes.Number))

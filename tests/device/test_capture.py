@@ -184,6 +184,21 @@ def test_a_recording_of_the_program_is_not_taken_away() -> None:
         captured(rig, Plan((POSITION,)))
 
 
+def test_the_room_for_an_array_of_unknown_size_is_not_taken() -> None:
+    """Else a program that runs would end at its DM with an error; what it has made already is safe."""
+    rig = moving(program="#A\nN=300\nWT 1500\nDM P[N*10]\n#L\nWT 20\nJP #L\nEN")
+    rig.simulation.execute("#A")
+    rig.run(0.3)
+    plan = Plan((POSITION, TORQUE), 1, 3000)
+    with pytest.raises(NotAllowed, match=r"will make P\[\] in line 3, of a size that is not known"):
+        captured(rig, plan)
+    rig.run(1.5)
+    with pytest.raises(NotAllowed, match="5000 of 8000 are free"):
+        captured(rig, plan)
+    assert captured(rig, Plan((POSITION,), 1, 40)).complete
+    assert rig.running and rig.simulation.state()["arrays"].keys() == {"P"}
+
+
 def test_a_running_program_keeps_its_pace_and_its_text() -> None:
     """Within 5 % of its pace without a capture (safety rules, reading without harm)."""
     rig = moving(program='#A\nDM P[500]\nN=0\n#L\nWT 20\nMG "TICK"\nN=N+1\nJP #L\nEN')
