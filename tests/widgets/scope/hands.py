@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pyqtgraph
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
@@ -72,16 +73,22 @@ def settled(chart: Chart) -> None:
 
 
 def drag(widget: QWidget, start: QPoint, end: QPoint) -> None:
-    QTest.mouseMove(widget, start)  # a hand is there before it presses
-    QTest.qWait(12)
-    QTest.mousePress(widget, LEFT, pos=start)
-    for part in (0.3, 0.6, 1.0):
-        place = QPoint(*(round(a + part * (b - a)) for a, b in zip(start.toTuple(), end.toTuple(), strict=True)))
-        event = QMouseEvent(QEvent.Type.MouseMove, QPointF(place), widget.mapToGlobal(QPointF(place)), LEFT, LEFT,
-            Qt.KeyboardModifier.NoModifier)  # fmt: skip
-        QTest.qWait(12)  # the scene drops moves that follow each other faster than no hand can
-        QApplication.sendEvent(widget, event)
-    QTest.mouseRelease(widget, LEFT, pos=end)
+    """Pressed, moved and let go. The scene drops moves within 10 ms of another one, also of one that Qt makes up when
+    something else is laid out: then a drag would be a click. So its clock has no say here."""
+    rate = pyqtgraph.getConfigOption("mouseRateLimit")
+    pyqtgraph.setConfigOption("mouseRateLimit", 0)
+    try:
+        QTest.mouseMove(widget, start)  # a hand is there before it presses
+        QTest.mousePress(widget, LEFT, pos=start)
+        for part in (0.3, 0.6, 1.0):
+            place = QPoint(*(round(a + part * (b - a)) for a, b in zip(start.toTuple(), end.toTuple(), strict=True)))
+            event = QMouseEvent(QEvent.Type.MouseMove, QPointF(place), widget.mapToGlobal(QPointF(place)), LEFT, LEFT,
+                Qt.KeyboardModifier.NoModifier)  # fmt: skip
+            QApplication.sendEvent(widget, event)
+            QApplication.processEvents()
+        QTest.mouseRelease(widget, LEFT, pos=end)
+    finally:
+        pyqtgraph.setConfigOption("mouseRateLimit", rate)
 
 
 def given(body: Body) -> tuple[Capture, float]:
