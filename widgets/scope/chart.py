@@ -217,7 +217,7 @@ class Chart(QWidget):
         self._named[group] = key
         units = list(dict.fromkeys(line.unit for line in lines if line.unit))
         last = strip is list(self.strips.values())[-1]
-        words = f"{group} ({', '.join(units)})" if units and group else group or ", ".join(units)
+        words = f"{group} ({units[0]})" if units and group and not group.endswith(")") else group or ", ".join(units)
         if strip.getAxis("left").labelText != words:
             strip.name_sides(bottom if last else "", words)
             strip.show_titles()

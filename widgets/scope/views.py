@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -54,6 +55,7 @@ class Views:
             lines += [
                 self._line(each, other.times, each.values, other.channels, faded=True) for each in self._curves(other)
             ]
+        lines = _by_unit(lines)
         triggered = capture.moments is None and capture.trigger_text != "at once"
         bottom = "Time from the trigger (s)" if triggered else "Time (s)"
         if capture.moments is not None:
@@ -72,7 +74,9 @@ class Views:
         lines = [self._over(across, upward, x, y)]
         for other in overlaid:
             if set(sides) <= set(self.names(other)):
-                lines.append(self._over(*self._pair(other, sides), faded=True))
+                pair = self._pair(other, sides)
+                if (pair[0].unit, pair[1].unit) == (across.unit, upward.unit):
+                    lines.append(self._over(*pair, faded=True))
         return Picture(lines, f"{across.label} ({across.unit})", _read_off(own), equal=_comparable(across, upward))
 
     def spectra(self, capture: Capture, stretch: tuple[float, float] | None, window: Window) -> Picture:
@@ -96,6 +100,7 @@ class Views:
             x, y = each.track.seen(low, high)
             curve = each.curve(y)
             lines.append(self._line(curve, x, curve.values, kinds))
+        lines = _by_unit(lines)
 
         def columns(start: float, end: float) -> list[Column]:
             found = []
@@ -188,7 +193,7 @@ class Views:
             columns.append(Column(curve.label, curve.unit, line.colour, line.x, line.y, peak))
         how = "" if interval_s is not None else ", made even"
         words = f"Frequency (Hz) · window: {window} · {count} values{how}"
-        return Picture(lines, words, lambda low, high: columns, step)
+        return Picture(_by_unit(lines), words, lambda low, high: columns, step)
 
 
 SINCE = "Time since Live began (s)"
@@ -197,6 +202,17 @@ SINCE = "Time since Live began (s)"
 def _read_off(lines: Sequence[Line]) -> Callable[[float, float], list[Column]]:
     columns = [Column(line.label, line.unit, line.colour, line.x, line.y) for line in lines]
     return lambda low, high: columns
+
+
+def _by_unit(lines: list[Line]) -> list[Line]:
+    """What shares a scale has one unit: millimetres and degrees, or a capture of another machine, get their own."""
+    first: dict[str, str] = {}
+    for line in lines:
+        first.setdefault(line.group, line.unit)
+    return [
+        line if line.unit == first[line.group] else dc.replace(line, group=f"{line.group} ({line.unit})")
+        for line in lines
+    ]
 
 
 def _comparable(across: Curve, upward: Curve) -> bool:

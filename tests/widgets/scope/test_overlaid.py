@@ -1,0 +1,86 @@
+"""What lies over what: one unit a scale, the picture in a file, colours, and what a cursor tells."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QImage
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
+
+from codegen.setup import Setup, Unit
+from codegen.setup_axis import Axis
+from device.capture import Capture, Channel
+from tests.widgets.scope.hands import LEFT, choose, click, given
+from widgets.parts.look import look
+from widgets.scope.bar import View
+from widgets.scope.body import Body
+
+X, Y = Channel("position", "X"), Channel("position", "Y")
+
+
+def title(body: Body, strip: str) -> str:
+    return str(body.chart.strips[strip].getAxis("left").labelText)
+
+
+def tick(body: Body, row: int) -> None:
+    """A capture is laid over by its box."""
+    body.side.setCurrentWidget(body.kept)
+    QApplication.processEvents()
+    place = body.kept.list.visualItemRect(body.kept.list.item(row))
+    QTest.mouseClick(body.kept.list.viewport(), LEFT, pos=QPoint(place.left() + 12, place.center().y()))
+    if not body.kept.overlaid:  # a style that puts the box elsewhere
+        body.kept.list.setCurrentRow(row)
+        QTest.keyClick(body.kept.list, Qt.Key.Key_Space)
+        body.kept.list.setCurrentRow(0)
+    assert len(body.kept.overlaid) == 1
+
+
+def test_a_capture_of_a_machine_in_inches_gets_a_scale_of_its_own(qapp: QApplication, body: Body) -> None:
+    """1000 counts are 2 mm on the one and 0.25 in on the other; a picture of both on one scale would be misread."""
+    setup = Setup(model="ssc4", axes=(Axis(unit=Unit.INCH, counts_per_unit="4000"),) * 4)
+    other = Capture((X, Y), np.full((2, 50), 1000.0), 2, 1000.0, model="ssc4", when="2026-11-20 07:00:00", setup=setup)
+    body.add(other)
+    mine, _ = given(body)
+    tick(body, 1)
+    assert title(body, "Position") == "Position (mm)" and title(body, "Position (in)") == "Position (in)"
+    drawn = {name: [item.getData()[1] for item in strip.items] for name, strip in body.chart.strips.items()}
+    assert [len(each) for each in drawn.values()] == [2, 2]
+    np.testing.assert_allclose(drawn["Position"][0], mine.of(X) / 500)
+    np.testing.assert_allclose(drawn["Position (in)"][0], 0.25)
+    choose(body.bar.views, str(View.PLANE))
+    strip = next(iter(body.chart.strips.values()))
+    assert strip.getAxis("bottom").labelText == "Position X (mm)" and len(strip.items) == 1  # no inches in there
+
+
+def test_axes_of_different_units_have_strips_of_their_own(qapp: QApplication, body: Body) -> None:
+    axes = (Axis(unit=Unit.MM, counts_per_unit="500"), Axis(unit=Unit.DEGREE, counts_per_unit="10"))
+    setup = Setup(model="ssc2", axes=(*axes, *axes))
+    body.add(Capture((X, Y), np.full((2, 50), 100.0), 2, 1000.0, setup=setup))
+    assert [title(body, name) for name in body.chart.strips] == ["Position (mm)", "Position (deg)"]
+    assert [body.readings.reading("Mean", name) for name in ("Position X", "Position Y")] == ["0.2 mm", "10 deg"]
+
+
+def test_the_picture_goes_into_a_file_and_colours_are_chosen(qapp: QApplication, body: Body, tmp_path: Path) -> None:
+    given(body)
+    slot = body.choices.slots[0]
+    click(slot.pen)
+    menu = next(each for each in slot.findChildren(QMenu) if each.isVisible())
+    words = [action.text() for action in menu.actions()]
+    for _ in range(words.index("Purple") + 1):
+        QTest.keyClick(menu, Qt.Key.Key_Down)
+    QTest.keyClick(menu, Qt.Key.Key_Return)
+    qapp.processEvents()
+    colour = look().colour("axis_w")
+    assert body.picture is not None and body.picture.lines[0].colour.name() == colour.name()
+    click(body.bar.picture)
+    dialog = next(each for each in body.window().findChildren(QFileDialog) if each.isVisible())
+    dialog.fileSelected.emit(str(tmp_path / "scope.png"))
+    dialog.close()
+    found = QImage(str(tmp_path / "scope.png"))
+    assert found.size() == body.chart.grab().size()
+    small = found.scaled(found.width() // 2, found.height() // 2)
+    near = [small.pixelColor(x, y) for x in range(small.width()) for y in range(0, small.height(), 2)]
+    assert any(abs(each.red() - colour.red()) + abs(each.blue() - colour.blue()) < 60 for each in near)
