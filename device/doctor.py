@@ -17,6 +17,7 @@ from codegen.models import Model
 from codegen.rates import RATES, setting_words
 from device.doctor_answers import PROMPT, Answered, judged
 from device.doctor_ports import group_of, holders
+from device.doctor_steps import BEHIND_A_SOCKET, ECHOED, HELD, NO_CTS, STRAIGHT
 from device.door import REVISION, choose
 from device.download import Job
 from device.find import ports
@@ -30,7 +31,6 @@ QUIET_S = 0.06  # after a prompt: then it is all
 SPEEDS = (9600, 19200, 38400, 4800, 1200, 300)
 ADDRESSES = 8  # of a daisy chain (dmc-1412-1414.txt l.1302)
 SHOWN = 40  # characters of a foreign answer
-STRAIGHT = "a straight-through cable (a null-modem cable does not work with the main port)"
 
 
 class Trouble(StrEnum):
@@ -121,7 +121,7 @@ class Doctor:
                 return self._busy(others)
             self._say("Listening")
             heard = self._listen(transport, LISTEN_S)
-            self._say(f"Asking at {self._speed}")
+            self._say(f"Asking{self._speed}")
             came = self._ask(transport, ANSWER_S)
             what, ready = judged(came), _clear(transport)
             if what is Answered.PROMPT:
@@ -132,7 +132,8 @@ class Doctor:
             return self._echo()
         if what is Answered.TEXT and judged(heard) is not Answered.GARBAGE:
             return self._foreign(came)
-        if self.line.handshake in ("rts", "both") and (found := self._without_handshake()):
+        handshake = self.line.handshake in ("rts", "both") and not self._has_no_speed
+        if handshake and (found := self._without_handshake()):
             return found
         if found := self._other_speeds():
             return found
@@ -195,17 +196,14 @@ class Doctor:
         return Diagnosis(
             Trouble.NOT_WIRED,
             f"The controller at {self.address} answers only without handshake: the CTS line of the cable is not wired.",
-            (
-                "Use a cable with RTS and CTS, or choose handshake “none” here.",
-                "Set switch 5 (HSHK) of an SSC to OFF where the cable has no handshake lines.",
-            ),
+            NO_CTS,
             self.line.baud,
             found.text,
             found.model,
         )
 
     def _other_speeds(self) -> Diagnosis | None:
-        if self.line.baud is None or "://" in self.address:
+        if self.line.baud is None or self._has_no_speed:
             return None
         for baud in (each for each in SPEEDS if each != self.line.baud and each in RATES):
             self._say(f"Asking at {baud} baud")
@@ -259,7 +257,7 @@ class Doctor:
         if ready is False:
             steps.append("CTS is low although it answers: leave the handshake at “none” with this cable.")
         return Diagnosis(
-            Trouble.NONE, f"{self.address} at {self._speed}: {told} answers.", tuple(steps), self.line.baud, text, model
+            Trouble.NONE, f"{self.address}{self._speed}: {told} answers.", tuple(steps), self.line.baud, text, model
         )
 
     # ---------------------------------------------------------- the diagnoses
@@ -302,10 +300,7 @@ class Doctor:
         return Diagnosis(
             Trouble.ECHO,
             f"{self.address} gives back only what is sent: this computer hears itself.",
-            (
-                "Look for a loop-back plug, or a cable that joins transmit and receive (pins 2 and 3).",
-                "Look whether the other end of the cable is plugged into the controller's MAIN port.",
-            ),
+            ECHOED,
         )
 
     def _foreign(self, came: bytes) -> Diagnosis:
@@ -330,15 +325,14 @@ class Doctor:
         )
 
     def _silent(self, ready: bool | None) -> Diagnosis:
+        if self._has_no_speed:
+            words = f"The connection to {self.address} is open, but nothing answers over it."
+            return Diagnosis(Trouble.SILENT, words, BEHIND_A_SOCKET)
         if ready is False:
             return Diagnosis(
                 Trouble.HELD,
                 f"Nothing answers at {self.address}, and CTS is low: the other end does not say that it is ready.",
-                (
-                    "Is the controller switched on? Its power light must be lit.",
-                    f"Use {STRAIGHT}.",
-                    "The cable needs its handshake lines, or switch 5 (HSHK) of an SSC must be OFF.",
-                ),
+                HELD,
             )
         return Diagnosis(
             Trouble.SILENT,
@@ -354,8 +348,16 @@ class Doctor:
     # -------------------------------------------------------------- the line
 
     @property
+    def _has_no_speed(self) -> bool:
+        """A socket: the speed is set where the serial line begins."""
+        return "://" in self.address
+
+    @property
     def _speed(self) -> str:
-        return f"{self.line.baud} baud" if self.line.baud is not None else "any speed"
+        """Behind the address, " at 9600 baud"."""
+        if self._has_no_speed:
+            return ""
+        return f" at {self.line.baud} baud" if self.line.baud is not None else " at any speed"
 
     def _say(self, phase: str) -> None:
         if self.job.cancelled:

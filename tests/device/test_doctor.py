@@ -292,3 +292,28 @@ def test_how_a_controller_is_set_to_a_speed() -> None:
     assert setting_words(1200, model("dmc1412")) == "jumper 9600 set, jumper 38.4K set"
     assert setting_words(4800, model("dmc1414")) == ""
     assert set(JUMPERS) < set(RATES)
+
+
+class Silent(Transport):
+    """An open socket behind which nobody answers."""
+
+    def read(self, timeout_s: float) -> bytes:
+        return b""
+
+    def write(self, data: bytes) -> int:
+        return len(data)
+
+    def close(self) -> None:
+        """Nothing is open."""
+
+
+def test_a_socket_has_no_speed() -> None:
+    """The speed belongs to the serial line behind it: the connection is spoken of."""
+    with SimulatorProcess("ssc1", pty=False) as machine:
+        told = Doctor(machine.address, LineSettings(baud=9600, handshake="both"), Job()).examine()
+    assert told.fine and "baud" not in told.sentence
+    ticks = iter(range(10**6))
+    silent = Doctor("socket://10.0.0.9:4000", LINE, Job(), open_=lambda *_: Silent(), clock=lambda: next(ticks) / 10)
+    told = silent.examine()
+    assert told.trouble is Trouble.SILENT and told.sentence.startswith("The connection to socket://10.0.0.9:4000 is")
+    assert "no speed" not in told.words

@@ -86,7 +86,8 @@ class DoctorWindow(QDialog):
         self.switches.setVisible(not fine and baud in RATES)
         if baud in RATES:
             self.switches.show_setting(baud, True)
-        self.take.setText(f"Connect at {baud} baud")
+        socket = "://" in str(self.ports.currentData())  # the speed is set at its other end
+        self.take.setText("Connect" if socket else f"Connect at {baud} baud")
         self.take.setVisible(baud is not None)
         self.take.setFocus() if baud is not None else self.close_.setFocus()
         self.adjustSize()
