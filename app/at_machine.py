@@ -177,7 +177,8 @@ class AtMachine:
         studio = self._studio
         self.values = ValuesPanel()
         self.variables = Variables(
-            studio.connection, studio.tick, self.values, studio.desk.ask, studio.files.folder, studio
+            studio.connection, studio.tick, self.values, studio.desk.ask, studio.files.folder, studio.settings, studio
         )
+        studio.talk.taken.connect(self.variables.hear)
         self._add(self.values)
         self._dock(self.values, BOTTOM)

@@ -67,6 +67,8 @@ ROWS = (
         "Types of controllers that do not name themselves, by serial number."),
     Row("recent_files", list, [], "Recent programs", "Programs opened last, newest first."),
     Row("folded", dict, {}, "Folded", "What is folded in the programs opened last, by file."),
+    Row("variable_names", dict, {}, "Names of variables",
+        "Variables and arrays whose names were typed, by type and serial number of the controller."),
     Row("jog_speeds", dict, {}, "Jog speeds", "Slow, medium and fast of every axis, by its unit, for moving by hand."),
     Row("tuner", dict, {}, "Tuner", "Axis, page, view, record, steps and targets of the tuner; no gains."),
     Row("scope", dict, {}, "Scope", "Channels, colours, interval, start and view that were chosen last in the scope."),

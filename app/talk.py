@@ -17,6 +17,7 @@ class Talk(QObject):
     """Every failure becomes a sentence; nothing waits."""
 
     said = Signal(str)
+    taken = Signal(str)  # a typed command that was accepted
 
     def __init__(
         self, connection: Connection, tick: Tick, terminal: TerminalPanel, parent: QObject | None = None
@@ -33,6 +34,8 @@ class Talk(QObject):
                 self._terminal.show_failure(command, failure)
             else:
                 self._terminal.show_reply(command, future.result())
+                if future.result().accepted:
+                    self.taken.emit(command)
 
         self._tick.when_done(self._connection.controller.ask(command), done)
 

@@ -13,7 +13,9 @@ from PySide6.QtCore import QObject
 from app.asked import AskedOfMachine
 from app.connection import Connection
 from app.run import Ask
+from app.settings import Settings
 from app.tick import Tick, failure_of
+from app.typed_names import TypedNames
 from codegen.disk import save_text
 from device.wire import FRAME_COLUMNS
 from widgets.parts.files import ask_open, ask_save
@@ -41,18 +43,23 @@ class Variables(QObject):
         panel: ValuesPanel,
         ask: Ask,
         folder: Callable[[], Path],
+        settings: Settings,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
+        self._typed = TypedNames(connection, settings)
         self._connection, self._tick, self._panel, self._folder = connection, tick, panel, folder
         self._ask = AskedOfMachine(connection, ask, lambda why: panel.say(why, good=False))
         self._elements: Elements | None = None  # an array that is being read
         self._shown = 0  # of its elements
-        tick.each(self._show_elements)
+        self._another = False  # a name was typed that is not shown yet
+        tick.each(self._look)
         panel.names_wanted.connect(self.read)
         panel.values_wanted.connect(self._read_values)
         panel.array_wanted.connect(self._read_array)
         panel.set_wanted.connect(self._set)
+        panel.name_added.connect(self._add)
+        panel.name_forgotten.connect(self._forget)
         panel.recipe_load_wanted.connect(self._ask_recipe)
         panel.recipe_save_wanted.connect(self._ask_save)
         panel.recipe_send_wanted.connect(self._ask_send)
@@ -67,10 +74,28 @@ class Variables(QObject):
         """Names first, then what they hold."""
 
         def named(found: tuple[list[str], list[str]]) -> None:
-            self._panel.show_names(*found)
-            self._read_values(found[0])
+            names, arrays = (list(dict.fromkeys((*a, *b))) for a, b in zip(found, self._typed.names, strict=True))
+            self._panel.show_names(names, arrays)
+            self._read_values(names)
 
         self._expect(self._values.names(), named)
+
+    def hear(self, line: str) -> None:
+        """A line that was typed elsewhere, and taken: what it names is shown as well."""
+        self._another = self._typed.hear(line) or self._another
+
+    def _add(self, name: str) -> None:
+        problem = self._typed.add(name)
+        self._panel.say(problem, good=False)
+        if not problem:
+            self._panel.new.clear()
+            self.read()
+
+    def _forget(self, name: str) -> None:
+        if self._typed.forget(name):
+            self.read()
+        else:
+            self._panel.say(f"{name} is named by the controller or its program: it stays.")
 
     def _read_values(self, names: Sequence[str]) -> None:
         if names:
@@ -103,8 +128,15 @@ class Variables(QObject):
 
         self._tick.when_done(self._values.elements(elements), done)
 
+    def _look(self) -> None:
+        """With every tick."""
+        if self._another and self._panel.in_sight and not self._connection.controller.resting():
+            self._another = False
+            self.read()
+        self._show_elements()
+
     def _show_elements(self) -> None:
-        """With every tick: the elements that have come since."""
+        """The elements that have come since."""
         from codegen.difference_values import number_text
 
         reading = self._elements
@@ -213,6 +245,7 @@ class Variables(QObject):
 
         def done(reply: Any) -> None:
             if reply.accepted:
+                self._typed.hear(line)
                 self._send_lines(rest)
             else:
                 self._panel.say(f"{line}: {reply.reason} The rest of the recipe was not sent.", good=False)

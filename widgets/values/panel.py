@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QShowEvent
+from PySide6.QtGui import QAction, QKeySequence, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QHBoxLayout,
     QHeaderView,
     QLabel,
+    QLineEdit,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
@@ -32,10 +33,11 @@ if TYPE_CHECKING:
 
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to see its variables and arrays."
 WATCHED = "This is Watch: switch to Control to change a value."
-NONE_THERE = "The controller knows no variable and no array yet."
+NONE_THERE = "The controller knows no variable and no array yet: execute a program that uses some, or add a name."
 COLUMNS = ("Name", "Value", "As text", "In the recipe")
 ARRAY_COLUMNS = ("Element", "Value", "In the recipe")
 NAME, VALUE, LETTERS, RECIPE = range(4)
+NAME_WIDTH = 136  # px
 REPEAT_TICKS = 30  # about a second
 
 
@@ -48,6 +50,8 @@ class ValuesPanel(Panel):
     values_wanted = Signal(object)  # names
     array_wanted = Signal(str)
     set_wanted = Signal(str, str)  # variable or element, typed text
+    name_added = Signal(str)
+    name_forgotten = Signal(str)
     recipe_load_wanted = Signal()
     recipe_save_wanted = Signal()
     recipe_send_wanted = Signal()
@@ -68,6 +72,7 @@ class ValuesPanel(Panel):
             QPushButton("Save recipe…"),
             QPushButton("Send recipe"),
         )
+        self.new, self.add, self.forget = QLineEdit(), QPushButton("Add name"), QAction("Forget this name", self)
         self.table, self.elements = QTableWidget(0, len(COLUMNS)), QTableWidget(0, len(ARRAY_COLUMNS))
         self.chosen, self.words_, self.empty = QLabel(), QLabel(), QLabel(OFFLINE)
         self._lay_out()
@@ -75,6 +80,11 @@ class ValuesPanel(Panel):
         self.load.clicked.connect(self.recipe_load_wanted)
         self.save.clicked.connect(self.recipe_save_wanted)
         self.send.clicked.connect(self.recipe_send_wanted)
+        self.new.returnPressed.connect(self.add.click)
+        self.add.clicked.connect(lambda: self.name_added.emit(self.new.text()))
+        self.forget.triggered.connect(
+            lambda: self.name_forgotten.emit(self._name(self.table.currentRow()).replace(" ", ""))
+        )
         self.table.cellChanged.connect(self._edited)
         self.table.currentCellChanged.connect(self._chosen)
         self.elements.cellChanged.connect(self._element_edited)
@@ -273,7 +283,7 @@ class ValuesPanel(Panel):
         controller = self.controller
         ready = linked and controller is not None and controller.state is State.READY
         control = ready and controller is not None and controller.control
-        for button in (self.read, self.keep, self.save):
+        for button in (self.read, self.keep, self.save, self.new, self.add):
             button.setEnabled(ready)
         self.send.setEnabled(bool(control and self.recipe))
         self.send.setToolTip("" if control else WATCHED)
@@ -311,7 +321,15 @@ class ValuesPanel(Panel):
         outer.addStretch(0)
         column = QVBoxLayout(self._inside)
         column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(WrappingRow(self.read, self.keep, self.load, self.save, self.send))
+        self.new.setAccessibleName("Name of a variable or array")
+        self.new.setPlaceholderText("Name, or NAME[]")
+        self.new.setFixedWidth(NAME_WIDTH)
+        self.new.setToolTip("A variable or array that neither the controller nor its program names; kept for this one")
+        self.forget.setShortcut(QKeySequence.StandardKey.Delete)
+        self.forget.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+        self.table.addAction(self.forget)
+        self.table.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        column.addLayout(WrappingRow(self.read, self.keep, self.load, self.save, self.send, self.new, self.add))
         both = QHBoxLayout()
         self._right = QWidget()
         self._right_column = QVBoxLayout(self._right)

@@ -90,6 +90,31 @@ def test_a_value_is_changed_in_control_and_read_back(stage: Stage) -> None:
     assert stage.rig.simulation.state()["variables"]["LEN"] == 7.25
 
 
+def test_names_that_were_typed_are_shown_and_kept_for_this_controller(stage: Stage) -> None:
+    """The SSC has no LV (its list of commands): it tells no name that its program does not hold."""
+    panel = connected(stage)
+    stage.type("SPARE=4.5", "DM TAB[3]")
+    stage.studio.desk.bring("Variables")
+    stage.until(lambda: "SPARE 4.5" in panel.words() and "TAB[ ]" in panel.words())
+    for name in ("KP", "TOOLONGNAME", "DEPTH"):
+        panel.new.setText(name)
+        QTest.keyClick(panel.new, Qt.Key.Key_Return)
+        stage.go(30)
+        assert ("is no name" in panel.words_.text()) == (name != "DEPTH")
+    typed(stage, "DEPTH", "2.25")  # not there yet: this is what makes it
+    stage.until(lambda: "DEPTH 2.25" in panel.words())
+    stage.connect("simulator", "ssc1")
+    panel.read.click()
+    stage.until(lambda: "no variable" in panel.words())
+    assert "SPARE" not in panel.words()
+    stage.connect("simulator", "ssc2").type("SPARE=6")
+    panel.read.click()
+    stage.until(lambda: "SPARE 6" in panel.words())
+    panel.table.setCurrentCell(row_of(panel, "SPARE"), VALUE)
+    panel.forget.trigger()
+    stage.until(lambda: "SPARE" not in panel.words() and "DEPTH" in panel.words())
+
+
 def test_in_watch_it_reads_and_changes_nothing(stage: Stage) -> None:
     panel = connected(stage, "machine")
     panel.table.setCurrentCell(row_of(panel, "LEN"), VALUE)
