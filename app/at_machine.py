@@ -98,6 +98,7 @@ class AtMachine:
             studio.settings, Points(studio.data / "points"), studio,
         )  # fmt: skip
         self.pads = Pads()
+        self.jog.more.setup_wanted.connect(studio.setup.show)
         self.pads.add(self.jog)
         studio.tick.each(self.pads.look)
         self._add(self.jog)

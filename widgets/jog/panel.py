@@ -17,6 +17,7 @@ from widgets.display.readings import marks_of
 from widgets.jog.arrows import ARROWS, MODIFIERS, WITH, ArrowLine
 from widgets.jog.ends import ghost_of, places_of
 from widgets.jog.hold import Holder
+from widgets.jog.more_axes import MoreAxes
 from widgets.jog.pages import ARC, LINE, NAMES, ONE, POINTS, STICK, Pages, row_of
 from widgets.jog.speed import key_of, speeds_of
 from widgets.jog.stack import Stack
@@ -76,7 +77,7 @@ class JogPanel(Panel):
         self.pages, self.buttons = Stack(), [QPushButton(name) for name in NAMES]
         self.open_page = ONE
         self.empty, self.result, self.arrows = QLabel(OFFLINE), QLabel(), ArrowLine()
-        self.halt = QPushButton("Stop this move")
+        self.halt, self.more = QPushButton("Stop this move"), MoreAxes()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self._lay_out()
 
@@ -323,7 +324,8 @@ class JogPanel(Panel):
             self._show_setup(page, *wanted)
 
     def _show_setup(self, page: QWidget, setup: Setup, letters: str) -> None:
-        self._letters = letters
+        self.more.show_axes(setup, letters)
+        self._letters = letters = "".join(letter for letter in letters if letter in setup.letters)
         page.show_setup(setup, letters)  # type: ignore[attr-defined]
         self._show_kept()
         if page is self.saved:
@@ -377,6 +379,7 @@ class JogPanel(Panel):
         column = QVBoxLayout(inside)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
+        column.addWidget(self.more)
         column.addLayout(row_of(self.buttons, self._open))
         self.result.setWordWrap(True)
         self.result.setProperty("role", "quiet")

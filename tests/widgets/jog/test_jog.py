@@ -347,3 +347,18 @@ def test_offline_and_watch_say_why_nothing_moves(stage: Stage) -> None:
     QTest.mousePress(page.hold_forward, LEFT)
     held_for(stage, 10)
     assert at(stage) == 0
+
+
+def test_axes_that_are_not_in_the_setup_are_named_with_the_way_to_them(stage: Stage) -> None:
+    ready(stage)
+    panel = stage.studio.at_machine.jog
+    assert not panel.more.isVisible()
+    stage.connect("simulator", "ssc4")
+    stage.until(panel.more.isVisible)
+    assert "Z and W of this controller are not in the setup (SSC, two axes)" in panel.more.words.text()
+    panel.buttons[3].click()
+    stage.go(3)
+    assert panel.drive is not None and set(panel.drive.axes) <= set("XY")
+    panel.more.open.click()
+    stage.go(3)
+    assert stage.studio.setup.window is not None and stage.studio.setup.window.isVisible()
