@@ -92,6 +92,7 @@ class Controller:
         self.simulator = own
         self._notices: deque[Notice] = deque(maxlen=2000)
         self.clock_there = Clock()
+        self.recording = ""  # why nothing else can be captured now: a capture is under way
         self.doubt = False  # whether the controller may have been restarted or exchanged meanwhile
         self._used = clock()
         self.door.control = kind is Kind.SIMULATOR

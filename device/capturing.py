@@ -22,7 +22,7 @@ from device.capture_room import Room
 from device.capture_talk import ELEMENT_BYTES, LINE_S, NOT, Talk
 from device.download import Job
 from device.proof import tells
-from device.quiet import allowed
+from device.quiet import allowed, recording
 from device.tasks import LinkError, LinkLost, NotAllowed, Priority, Steps, data_line
 from device.trigger import Turning, found_at, passed, watched
 from device.wire import FRAME_COLUMNS, Kind, Shape, Upload, fitting
@@ -64,7 +64,12 @@ def capture(
 ) -> CaptureJob:
     """Starts a capture; needs Control, because it writes arrays in the controller."""
     job = CaptureJob(progress)
-    job.future = c.run(capture_steps(c, plan, job, setup, note), Priority.DOWNLOAD, "download")
+
+    def steps() -> Steps[Capture]:
+        with recording(c, "a capture is under way. Wait for its end, or cancel it.", NOT):
+            return (yield from capture_steps(c, plan, job, setup, note))
+
+    job.future = c.run(steps(), Priority.DOWNLOAD, "download")
     return job
 
 
@@ -80,16 +85,16 @@ def capture_steps(
 
     The arrays are given back whatever is thrown into it, except where the line is lost.
     """
-    recording = Recording(c, plan, job, setup, note)
-    recording.during = during
+    under_way = Recording(c, plan, job, setup, note)
+    under_way.during = during
     try:
-        done = yield from recording.steps()
+        done = yield from under_way.steps()
     except LinkLost:
         raise
     except LinkError:
-        yield from recording.room.clean()
+        yield from under_way.room.clean()
         raise
-    yield from recording.room.clean()
+    yield from under_way.room.clean()
     return done
 
 
@@ -191,6 +196,7 @@ class Recording:
                 self._ended = True
                 yield from self._talk.must("RC 0", keep=True)
                 continue
+            self._ours(index)
             ready = int(index) if records else self._recorded(int(index), interval)
             if not records and ready < self._values.shape[1]:
                 self._values = self._values[:, :ready]
@@ -200,6 +206,11 @@ class Recording:
             elif records:
                 self._tell("recording", max(plan.count - int(index), 0) * interval)
                 yield from self._talk.pause(min(max((self._read + chunk - index) * interval, 0.02), 0.2))
+
+    def _ours(self, index: float) -> None:
+        """The pointer lies in our arrays; LinkError where somebody has begun another recording since."""
+        if index > self._plan.count:
+            raise LinkError("Capture ended: somebody else has begun another recording in the controller.")
 
     def _recorded(self, index: int, interval: float) -> int:
         """How many elements a recording that has ended holds: all, or fewer where somebody ended it early."""
@@ -219,6 +230,7 @@ class Recording:
             yield from self._record_behind(bracket, turning)
         yield from self._talk.must("RC 0", keep=True)
         (index,) = yield from self._talk.numbers(("_RD", Shape(4, 0)), keep=True)
+        self._ours(index)
         order = turning.order(int(index), self._c.clock())
         self._values = self._values[:, : len(order)]
         oldest = turning.total - len(order)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from codegen.twoletter.problems import ERROR_TEXTS
@@ -38,6 +40,18 @@ def ready(c: Controller, axis: str, what: str = "Not started") -> Model:
     if axis not in model.axes:
         raise NotAllowed(f"{what}: this controller has no axis {axis}.")
     return model
+
+
+@contextmanager
+def recording(c: Controller, words: str, what: str = "Not started") -> Iterator[None]:
+    """A controller records one thing at a time, and what is under way keeps its arrays; `words` say what it is."""
+    if c.recording:
+        raise NotAllowed(f"{what}: {c.recording}")
+    c.recording = words
+    try:
+        yield
+    finally:
+        c.recording = ""
 
 
 def still(c: Controller, model: Model, what: str) -> Steps[None]:

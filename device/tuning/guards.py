@@ -21,7 +21,7 @@ from device.former import GAINS, HELD, LIMITS, PROFILE, Former, assign, kept, pr
 from device.jog import FURTHEST
 from device.lease import LOOK_S
 from device.proof import proved
-from device.quiet import ready, rest, still
+from device.quiet import ready, recording, rest, still
 from device.tasks import LinkError, NotAllowed, Steps, Stopped, Wait
 from device.wire import Kind
 
@@ -77,7 +77,8 @@ class Guard:
 
 def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], Steps[T]], now: datetime) -> Steps[T]:
     """Narrows, runs `body`, puts back; what cannot be put back now stays on disk."""
-    with taken(c, f"axis {guard.axis} is being tuned. Wait for its end, or cancel it."):
+    words = f"axis {guard.axis} is being tuned. Wait for its end, or cancel it."
+    with recording(c, words), taken(c, words):
         former = yield from _begin(c, guard, folder, now)
         began = c.clock()
 

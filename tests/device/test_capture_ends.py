@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from datetime import datetime
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from device.api import State
 from device.capture import Channel, Plan, Trigger, When
 from device.capturing import CaptureJob, capture
 from device.tasks import LinkError, NotAllowed
+from device.tuning.bench import Wish
+from device.tuning.loop import Gains
+from device.tuning.run import run_step
 from tests.device.test_capture import COMMANDED, INPUTS, POSITION, captured, done, moving
 from tests.rig import Rig
 
@@ -99,3 +106,36 @@ def test_arrays_that_are_gone_are_named() -> None:
         done(rig, job)
     part = job.partial()
     assert part is not None and np.isfinite(part.values[0]).any()
+
+
+def test_the_tuner_does_not_take_a_capture_its_arrays(tmp_path: Path) -> None:
+    """One recording at a time: each names what is under way, and that goes on."""
+    rig = moving()
+    job = waiting(rig)
+    now, wish = datetime(2026, 11, 23), Wish("X", 300, Gains(kp=20, ki=0, kd=150, fv=0, fa=0), 5.0, 0.25)
+    step = run_step(rig.controller, wish, tmp_path, now)
+    with pytest.raises(NotAllowed, match="Not started: a capture is under way"):
+        rig.result(step.future)
+    assert not job.future.done() and not list(tmp_path.iterdir())
+    rig.run(0.8)
+    rig.simulation.stimulus("in1", 0)
+    found = done(rig, job)
+    assert found.complete and not int(found.of(INPUTS)[found.trigger]) & 1
+    step = run_step(rig.controller, wish, tmp_path, now)
+    rig.run(0.6)
+    with pytest.raises(NotAllowed, match="Not captured: axis X is being tuned"):
+        captured(rig, Plan((POSITION,), 1, 40))
+    rig.until(step.future.done)
+    assert step.future.result().metrics is not None
+    assert captured(rig, Plan((POSITION,), 1, 40)).complete
+
+
+def test_another_recording_that_a_person_begins_meanwhile_ends_it() -> None:
+    rig = moving()
+    job = waiting(rig)
+    rig.type("RC 0", "DM LONG[2000]", "RA LONG[]", "RD _TPX", "RC 1,-2000")
+    rig.run(2.0)
+    rig.simulation.stimulus("in1", 0)
+    with pytest.raises(LinkError, match="somebody else has begun another recording"):
+        done(rig, job)
+    assert rig.controller.state is State.READY
