@@ -131,7 +131,7 @@ class AtMachine:
             studio.connection, studio.session, studio.tick, self.table, self.plane, studio.desk.ask,
             studio.ear.homed_axes, studio.files.folder, studio.data, studio.now, studio.settings, studio,
         )  # fmt: skip
-        self.pads.add(self.table)
+        self.pads.add(self.table, self.table.pad_dead)
         self.ghosts.sources.append(self.teach.play.ghost)
         self._add(self.table)
         self._dock(self.table, RIGHT)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from device.gamepad import NONE, Held, Pad, PadMissing, open_gamepad
-from device.jog import deflection
+from device.jog import DEAD_ZONE, deflection
 
 
 class PadUser(Protocol):
@@ -37,27 +37,27 @@ class Pads:
         self.opened = opened
         self._pad: Pad | None = None
         self._missing = ""
-        self._users: list[PadUser] = []
+        self._users: list[tuple[PadUser, Callable[[], float]]] = []
         self._user: PadUser | None = None
         self._free = False  # it was let go since this user has it: what was pushed before starts nothing
         self._down: frozenset[int] = frozenset()
 
-    def add(self, user: PadUser) -> None:
-        """A panel more; the first that wants the pad has it."""
-        self._users.append(user)
+    def add(self, user: PadUser, dead: Callable[[], float] = lambda: DEAD_ZONE) -> None:
+        """A panel more, and its dead band as a share of the way; the first panel that wants the pad has it."""
+        self._users.append((user, dead))
 
     def look(self) -> None:
         """With every tick; never waits."""
-        wants = next((user for user in self._users if user.pad_wanted), None)
+        wants, dead = next((each for each in self._users if each[0].pad_wanted), (None, None))
         if wants is not self._user:
             if self._user is not None:
                 self._user.pad_moved(0.0, 0.0)
             self._user, self._free = wants, False
-        if wants is None:
+        if wants is None or dead is None:
             return
         held = self._read()
         wants.show_pad(self._missing or ("" if held is not None else NONE))
-        place = deflection(held.x, held.y) if held is not None and held.dead_man else (0.0, 0.0)
+        place = deflection(held.x, held.y, dead()) if held is not None and held.dead_man else (0.0, 0.0)
         self._free |= place == (0.0, 0.0)
         wants.pad_moved(*(place if self._free else (0.0, 0.0)))
         down = held.buttons if held is not None else frozenset[int]()

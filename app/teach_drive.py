@@ -97,8 +97,7 @@ class TeachDrive(QObject):
             return self._panel.reason
         if controller.stop_state in (StopState.STOPPING, StopState.NOT_CONFIRMED):
             return "Driving ended by STOP."
-        focus = QApplication.focusWidget()
-        if focus is not None and focus is not self._panel and not self._panel.isAncestorOf(focus):
+        if not self._panel.has_keyboard(QApplication.focusWidget()):
             return "Driving ended: something else has the keyboard now."
         return ""
 

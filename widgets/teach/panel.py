@@ -220,6 +220,10 @@ class TeachPanel(Panel):
         """Whether the pad drives here."""
         return self.enabled and self.source == PAD and self.in_sight
 
+    def pad_dead(self) -> float:
+        """The dead band of its stick, a share of the way."""
+        return dead_band(self.driving)
+
     def pad_moved(self, across: float, upward: float) -> None:
         self._pad = across, upward
 
@@ -232,6 +236,15 @@ class TeachPanel(Panel):
         self._pad_words = words
 
     # ---- ends
+
+    def has_keyboard(self, focus: QWidget | None) -> bool:
+        """Whether keys go to this panel or to one of its small windows: a wait is added while the stick drives on."""
+        return focus is None or focus is self or self.isAncestorOf(focus) or focus.window() in self._entries
+
+    @property
+    def _entries(self) -> list[QWidget]:
+        """The small windows that are open."""
+        return self.findChildren(QWidget, "entry")
 
     def ended(self, why: str) -> None:
         """The stick drives no more."""
@@ -250,7 +263,7 @@ class TeachPanel(Panel):
 
     def _in_front(self) -> bool:
         """This window, or one of the small ones of this panel."""
-        return self.isActiveWindow() or any(each.isActiveWindow() for each in self.findChildren(QWidget, "entry"))
+        return self.isActiveWindow() or any(each.isActiveWindow() for each in self._entries)
 
     # ---- inside
 

@@ -66,7 +66,11 @@ def drive_by_pad(bench: Bench) -> None:
     pad = HandPad(Held(0.0, 0.0, False))
     bench.stage.studio.at_machine.pads.opened = lambda: pad
     bench.parts.source.setCurrentIndex(bench.parts.source.findData(PAD))
+    bench.fill(bench.parts.of_stick, "dead", "40")
     bench.enable()
+    pad.push(0, 0.38)  # within the dead band of its field
+    bench.stage.go(12)
+    assert bench.places == (0, 0)
     pad.push(0, 1)
     bench.stage.until(lambda: bench.places[1] > 300, 3)
     assert bench.moving and bench.places[0] == 0
