@@ -38,10 +38,15 @@ class Track:
     def __init__(self, most: int = MOST) -> None:
         self.count = 0
         self._most = most - most % PIECE
-        self._times, self._values = np.full(self._most, np.nan), np.full(self._most, np.nan)
+        self._times, self._values = np.empty(self._most), np.empty(self._most)
         pieces = self._most // PIECE
-        self._piece_times, self._least, self._greatest = (np.full(pieces, np.nan) for _ in range(3))
-        self._sums, self._squares = np.full(pieces, np.nan), np.full(pieces, np.nan)
+        self._piece_times, self._least, self._greatest = (np.empty(pieces) for _ in range(3))
+        self._sums, self._squares = np.empty(pieces), np.empty(pieces)
+
+    def set_aside(self) -> None:
+        """Touches what is not filled yet, so that memory does not grow later; some ms, so not where a window waits."""
+        for kept in (self._times, self._values):
+            kept[self.count :] = np.nan
 
     def add(self, times: Values, values: Values) -> None:
         """Newer values, oldest first."""
@@ -195,6 +200,7 @@ class Roll:
         self.start = float("nan")  # the time of the first value: 0 in the picture
         former: dict[str, Track] = before.tracks if before is not None else {}
         self.tracks: dict[str, Track] = {key: former[key] if key in former else Track(most) for key in keys}
+        self._fresh = [track for key, track in self.tracks.items() if key not in former]
         if before is not None:
             self._seen, self._ring, self.start = before._seen, before._ring, before.start
         self._followed: dict[tuple[Derived, str], Followed] = {}
@@ -233,6 +239,7 @@ class Roll:
         if key not in self._followed:
             self._followed[key] = Followed(kind, source, commanded, self._most)
             self._followed[key].follow()
+            self._fresh.append(self._followed[key].track)
         return self._followed[key].track
 
     def capture(self, channels: Sequence[Channel], low: float, high: float) -> Capture:
@@ -255,6 +262,8 @@ class Roll:
         """What is new since the last call; whether there was anything."""
         if ring is not self._ring:
             self._ring, self._seen = ring, ring.count
+        if self._fresh:
+            self._fresh.pop().set_aside()
         self._seen, values, times = ring.since(self._seen)
         found = False
         for key, track in self.tracks.items():

@@ -49,6 +49,7 @@ class Body(QWidget):
         super().__init__(parent)
         self._setup: Setup | None = None
         self._partial: Capture | None = None
+        self._due = False  # it has strips, but is not drawn into them yet
         self._roll: Roll | None = None
         self._reason = ""
         self.picture: Picture | None = None
@@ -100,21 +101,31 @@ class Body(QWidget):
         elif not controller.control:
             reason = "This is Watch: switch to Control first; a capture writes arrays in the controller."
         self.bar.allow(reason, controller.kind is not Kind.OFFLINE)
-        self.chart.prepare()
+        if self._due:
+            self.redraw()
+        else:
+            self.chart.prepare()
 
     def show_progress(self, phase: str, fraction: float, remaining_s: float) -> None:
         self.bar.show_progress(phase, fraction, remaining_s)
 
     def show_partial(self, capture: Capture) -> None:
-        """What there is of a capture under way."""
+        """What there is of a capture under way; its strips come first, its curves with the next tick."""
         self._partial = capture
-        self.redraw()
+        picture = self._picture(capture)
+        if self.chart.begin(picture.lines, picture.bottom, picture.equal):
+            self.empty.hide()
+            self.chart.show()
+            self._due = True
+        else:
+            self.redraw()
 
     def show_result(self, words: str, good: bool = True) -> None:
         """The capture has ended."""
-        self._partial = None
         self.bar.show_result(words, good)
-        self.redraw()
+        if self._partial is not None:
+            self._partial = None
+            self.redraw()
 
     def add(self, capture: Capture, name: str = "", show: bool = True) -> None:
         """A capture that is done, or was opened; it is shown."""
@@ -169,6 +180,7 @@ class Body(QWidget):
 
     def redraw(self, fit: bool = False, measured: bool = True) -> None:
         """Everything anew, as the choices say."""
+        self._due = False
         live, capture = self._roll is not None, self.shown
         self.bar.show_view(self.bar.view, live)
         nothing = capture is None and not live

@@ -14,7 +14,8 @@ from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPalette, QPixmap, QR
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from widgets.parts.look import look
-from widgets.parts.plot import Plot
+from widgets.parts.plot import Plot, inside
+from widgets.parts.turns import Turns
 
 FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
 FEW_TOGETHER = 5000  # of all curves
@@ -43,9 +44,13 @@ class Line:
 class Strip(Plot):
     """One scale of the picture; what is done to its time is done to all."""
 
-    def __init__(self, chart: Chart) -> None:
+    def __init__(self, chart: Chart, item: pyqtgraph.PlotItem | None = None) -> None:
         self._chart = chart
-        super().__init__("Curves", parent=chart)
+        super().__init__("Curves", parent=chart, item=item)
+        self.legend = QLabel(self)
+        self.legend.setTextFormat(Qt.TextFormat.RichText)
+        self.legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.legend.setAutoFillBackground(True)
         self.items: list[Any] = []
         self._pens: list[tuple[Any, ...]] = []
         self.setMinimumHeight(60)
@@ -126,6 +131,8 @@ class Chart(QWidget):
         self.setAccessibleName("Curves")
         self.strips: dict[str, Strip] = {}
         self._spare: list[Strip] = []  # as new
+        self._begun: pyqtgraph.PlotItem | None = None  # of the next one
+        self._turns = Turns(self)
         self.cursors: list[float] | None = None
         self._chosen = 0
         self._step = 0.001
@@ -133,19 +140,21 @@ class Chart(QWidget):
         self._marks: dict[str, list[Any]] = {}
         self._mark: tuple[float, float] | None = None
         self._shape: tuple[object, ...] = ()
-        self._legends: dict[str, QLabel] = {}
+        self._empty = False  # nothing is drawn into the strips of this shape yet
         self._named: dict[str, tuple[object, ...]] = {}
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(2)
 
     def prepare(self) -> None:
-        """A strip for the next picture, one with each tick: made when they are needed the window would stand still."""
-        if len(self._spare) < SPARE:
+        """Half a strip for the next picture with each tick: made when they are needed the window would stand still."""
+        if self._begun is not None:
             self._spare.append(self._made())
+        elif len(self._spare) < SPARE:
+            self._begun = inside()
 
     def _made(self) -> Strip:
-        strip = Strip(self)
+        strip, self._begun = Strip(self, self._begun), None
         strip.hide()
         strip.panned.connect(self.panned)
         strip.getViewBox().setMouseEnabled(x=True, y=True)
@@ -161,13 +170,10 @@ class Chart(QWidget):
 
         Whether there are other strips now: then everything is shown.
         """
-        groups = list(dict.fromkeys(line.group for line in lines)) or [""]
         self._step = step
-        shape = (bottom, equal, tuple(groups))
-        fresh = shape != self._shape
-        if fresh:
-            self._shape = shape
-            self._build(groups, bottom, equal)
+        fresh = self.begin(lines, bottom, equal)
+        self._empty = False
+        self._turns.change(self.strips.values())
         few = sum(len(line.y) for line in lines) <= FEW_TOGETHER
         for group, strip in self.strips.items():
             mine = [line for line in lines if line.group == group]
@@ -182,31 +188,48 @@ class Chart(QWidget):
                 strip.fit_own()
         return fresh
 
-    def _build(self, groups: list[str], bottom: str, equal: bool) -> None:
-        for strip in self.strips.values():
+    def begin(self, lines: Sequence[Line], bottom: str, equal: bool) -> bool:
+        """The strips that lines will have, without them; whether there are none in them yet."""
+        groups = list(dict.fromkeys(line.group for line in lines)) or [""]
+        shape = (bottom, equal, tuple(groups))
+        if shape != self._shape:
+            self._shape, self._empty = shape, True
+            self._build(groups, equal)
+        return self._empty
+
+    def _build(self, groups: list[str], equal: bool) -> None:
+        """Strips that are there go on; all are laid out once, because each size they have takes time."""
+        strips = list(self.strips.values())
+        self._column.setEnabled(False)
+        for strip in strips[len(groups) :]:
             self._column.removeWidget(strip)
             strip.hide()
             strip.deleteLater()
-        self.strips, self._lines, self._marks, self._legends, self._named = {}, {}, {}, {}, {}
-        first: Strip | None = None
-        for number, group in enumerate(groups):
-            strip = self.strips[group] = self._spare.pop() if self._spare else self._made()
+        self._wipe(self._lines)
+        self._wipe(self._marks)
+        while len(strips) < len(groups):
+            strips.append(self._spare.pop() if self._spare else self._made())
+            self._column.addWidget(strips[-1], 1)
+        self.strips, self._named = dict(zip(groups, strips, strict=False)), {}
+        high = (self.height() - (len(groups) - 1) * self._column.spacing()) // len(groups)
+        for number, (group, strip) in enumerate(self.strips.items()):
             strip.setAccessibleName(f"Curves of {group.lower()}" if group else "Curves")
             strip.setAspectLocked(equal)
-            legend = self._legends[group] = QLabel(strip)
-            legend.setTextFormat(Qt.TextFormat.RichText)
-            legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-            legend.setAutoFillBackground(True)
-            self._column.addWidget(strip, 1)
-            strip.show()
-            if first is None:
-                first = strip
-            else:
-                strip.setXLink(first)
+            if strip.isHidden():
+                strip.setGeometry(0, number * (high + self._column.spacing()), self.width(), high)
+                strip.show()
+            strip.setXLink(strips[0] if number else None)
             last = number == len(groups) - 1
             strip.getAxis("bottom").setStyle(showValues=last)
-            if not last:
-                strip.getAxis("bottom").setHeight(6)
+            strip.getAxis("bottom").setHeight(None if last else 6)
+        self._column.setEnabled(True)
+
+    def _wipe(self, drawn: dict[str, list[Any]]) -> None:
+        """These are no longer in their strips."""
+        for group, items in drawn.items():
+            for item in items:
+                self.strips[group].removeItem(item)
+        drawn.clear()
 
     def _name(self, group: str, lines: Sequence[Line], bottom: str) -> None:
         """Left: what is shown, with its unit; above the curves their names in their colours."""
@@ -218,8 +241,9 @@ class Chart(QWidget):
         units = list(dict.fromkeys(line.unit for line in lines if line.unit))
         last = strip is list(self.strips.values())[-1]
         words = f"{group} ({units[0]})" if units and group and not group.endswith(")") else group or ", ".join(units)
-        if strip.getAxis("left").labelText != words:
-            strip.name_sides(bottom if last else "", words)
+        below = bottom if last else ""
+        if (strip.getAxis("left").labelText, strip.getAxis("bottom").labelText) != (words, below):
+            strip.name_sides(below, words)
             strip.show_titles()
             strip.getAxis("left").setWidth(self._left_px)
         dash = {True: "┅", False: "━"}
@@ -227,7 +251,7 @@ class Chart(QWidget):
         text = "&nbsp;&nbsp;&nbsp;".join(
             f'<span style="color:{colour}">{dash[dashed]} {label}</span>' for label, colour, dashed in names
         )
-        legend = self._legends[group]
+        legend = strip.legend
         if legend.text() != text:
             legend.setText(text)
             legend.setFont(look().small_font())

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from device.tuning.metrics import Response
 from widgets.parts.look import look
 from widgets.parts.plot import Plot
+from widgets.parts.turns import Turns
 
 MS = 1000.0
 OVERLAYS = ("axis_y", "axis_z", "axis_w", "group_math", "group_flow", "group_limits")
@@ -40,6 +41,7 @@ class StepPlot(QWidget):
         self.position, self.torque = position, torque
         self._curves: tuple[Curve, ...] = ()
         self._scale, self._unit, self._letter, self._limit, self.error = 1.0, "counts", "X", 10.0, False
+        self._turns = Turns(self)
         self.torque.setXLink(self.position)
         self.torque.setMaximumHeight(150)
         self.position.addLegend(offset=(-8, -8))
@@ -73,11 +75,12 @@ class StepPlot(QWidget):
 
     def draw(self) -> None:
         """Everything anew, in the colours of now."""
+        self._turns.change((self.position, self.torque))
         empty(self.position)
         empty(self.torque)
         unit = "counts" if self.error else self._unit
         self.position.name_sides("", f"{'Error' if self.error else 'Position'}, {unit}")
-        self.torque.name_sides("Time, ms", "Torque, V")
+        self.torque.name_sides("Time, ms", "Volts")  # of the motor command; more words would be cut off
         self._legend()
         for number, curve in enumerate(self._curves):
             front = number == len(self._curves) - 1
