@@ -27,7 +27,7 @@ from device.api import Kind, State
 from widgets.display.readings import unit_of
 from widgets.parts.units import shown
 from widgets.tuner.asked import UNSURE, VELOCITY, Asked, Judged
-from widgets.tuner.panel import AUTOMATIC, MODEL, TunerPanel
+from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MODEL, TunerPanel
 
 if TYPE_CHECKING:
     from device.download import Job
@@ -80,7 +80,7 @@ class Tuner(QObject):
         self.into = IntoController(connection, tick, panel, ask, careful, self.read_present, self)
         panel.zero_wanted.connect(self._zero)
         panel.predicted_wanted.connect(self._run_predicted)
-        panel.page_opened.connect(lambda _page: self._opened())
+        panel.page_opened.connect(self._opened)
         connection.changed.connect(lambda _controller: self._another())
         self._joined = False
 
@@ -320,9 +320,11 @@ class Tuner(QObject):
             self._panel.automatic.clear()
             self._panel.show_curves([], None, 10.0)
 
-    def _opened(self) -> None:
+    def _opened(self, page: int) -> None:
         """A page, for the first time or again: DV may be another one by now."""
         self._join_pages()
+        if page == LOGBOOK:
+            self._panel.logbook.tell()
         self.read_present()
 
     def _join_pages(self) -> None:

@@ -65,7 +65,7 @@ def _section(setup: Setup, entry: Entry) -> str:
     step = f"{entry.step / scale_of(axis):.4g} {unit_of(axis)}"
     told = [
         f"{what} of {step} ({entry.step} counts) with {gains_words(entry.gains)}; "
-        f"torque limit {entry.gains.torque_limit:.3g} V.",
+        f"torque limit {entry.gains.torque_limit:.4g} V.",
         metrics_words(entry.metrics),
         entry.words if entry.method in ("automatic", "move") else "",
         str(entry.estimate.get("words", "")),

@@ -10,6 +10,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
 from codegen.setup_axis import Unit
+from device.simulator.plant import Drive, Plant
+from tests.device.tuning.test_dual import MACHINES
 from tests.stage import Stage
 from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MANUAL, MODEL, TunerPanel
 
@@ -57,8 +59,51 @@ def tuner_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     assert part.book.preview is not None
     yield "tuner-report", part.book.preview
     part.book.preview.close()
+    panel.open_page(MODEL)
+    _run(stage, panel, panel.model.compare)
+    yield "tuner-moves", studio.window
+    panel.results.error.setChecked(False)
+    yield from _machines(stage, panel)
     panel.open_page(MANUAL)
+    stage.connect("simulator", "ssc2").type("SH")
     studio.desk.arrange("Program")
+
+
+def _machines(stage: Stage, panel: TunerPanel) -> Iterator[tuple[str, QWidget]]:
+    """Axes of other kinds: one that hangs, a dual loop, one of those with weight on it, a drive in velocity mode."""
+    window = stage.studio.window
+    _connect(stage, Plant(gravity=0.5, coulomb_friction=0.004))
+    panel.open_page(MANUAL)
+    _run(stage, panel)
+    yield "tuner-hanging", window
+    panel.open_page(MODEL)
+    _run(stage, panel)
+    _until(stage, lambda: stage.studio.at_machine.tuning.tuner.model.proposal is not None)
+    stage.go(30)
+    yield "tuner-hanging-model", window
+    _connect(stage, MACHINES["play, dry"], "DVX=1")
+    panel.open_page(MODEL)
+    _until(stage, lambda: "dual loop" in panel.box.words.text())
+    yield "tuner-dual-model", window
+    panel.open_page(AUTOMATIC)
+    panel.box.drive.setCurrentIndex(1)
+    _run(stage, panel)
+    yield "tuner-dual", window
+    _connect(stage, dc.replace(MACHINES["play, dry"], gravity=2.5), "DVX=1")
+    panel.open_page(AUTOMATIC)
+    _run(stage, panel)
+    yield "tuner-dual-weight", window
+    _connect(stage, Plant(drive=Drive.VELOCITY))
+    panel.open_page(AUTOMATIC)
+    panel.box.drive.setCurrentIndex(0)
+    _run(stage, panel)
+    _until(stage, lambda: "auto tune" in panel.result.text())
+    yield "tuner-velocity", window
+
+
+def _connect(stage: Stage, plant: Plant, *commands: str) -> None:
+    stage.connect("simulator", "ssc2", plants={"X": plant}).type("SH", *commands)
+    stage.go(20)
 
 
 def _run(stage: Stage, panel: TunerPanel, button: QWidget | None = None) -> None:

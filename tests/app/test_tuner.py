@@ -7,9 +7,9 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit, QWidget
 from shiboken6 import isValid
 
 from app.settings import Settings
@@ -17,7 +17,10 @@ from codegen.twoletter.fixed import ONE
 from device.capture import Channel
 from device.capture_file import load
 from device.former import Former, keep, left_behind
+from device.tuning.entry import gains_words
 from device.tuning.logbook import Logbook
+from tests.app.pdf_text import pdf_text
+from tests.app.spot import press
 from tests.app.test_controls import controls, describe, name_of, reachable
 from tests.device.tuning.test_dual import MACHINES
 from tests.long import is_long
@@ -44,7 +47,9 @@ def tuner(stage: Stage, kind: str = "simulator", model: str = "ssc1", **more: An
 
 
 def click(widget: QWidget) -> None:
-    QTest.mouseClick(widget, Qt.MouseButton.LeftButton, pos=QPoint(12, widget.height() // 2))
+    """Where it stands in the window."""
+    QApplication.processEvents()
+    press(widget)
 
 
 def typed(field: QWidget, text: str) -> None:
@@ -107,11 +112,20 @@ def test_steps_by_mouse_and_keys_kept_in_the_logbook(stage: Stage, tmp_path: Pat
 
 def _saved(stage: Stage, panel: TunerPanel, folder: Path) -> None:
     click(panel.results.save)
-    dialogs = [each for each in stage.studio.window.children() if isinstance(each, QFileDialog)]
-    dialogs[-1].fileSelected.emit(str(folder / "step.csv"))
-    dialogs[-1].close()
+    save_as(stage.studio.window, folder / "step.csv")
     capture = load(folder / "step.csv")
     assert capture.of(Channel("error", "X")).max() > 0.95 * 319  # at the first element it has moved a little
+
+
+def save_as(parent: QWidget, path: Path) -> None:
+    """The name typed into the file window, and Enter."""
+    dialog = [each for each in parent.children() if isinstance(each, QFileDialog)][-1]
+    name = dialog.findChild(QLineEdit, "fileNameEdit")
+    assert dialog.isVisible() and name is not None
+    typed(name, str(path))
+    QTest.keyClick(name, Qt.Key.Key_Return)
+    QApplication.processEvents()
+    assert path.exists()
 
 
 def _logbook(stage: Stage, panel: TunerPanel, folder: Path) -> None:
@@ -130,8 +144,22 @@ def _logbook(stage: Stage, panel: TunerPanel, folder: Path) -> None:
     assert book.preview is not None
     text = book.preview.pages.toPlainText()
     assert "Belt loose" in text and "Run 2, axis X: Manual" in text
-    book.preview.save(folder / "report.pdf")
-    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
+    click(book.preview.buttons["Save as PDF…"])
+    save_as(book.preview, folder / "report.pdf")
+    assert b"Commissioning report" in (folder / "report.pdf").read_bytes().replace(b"\0", b"")  # its title, UTF-16
+    paper = pdf_text(folder / "report.pdf")
+    for entry, note in zip(book.book.entries, ("Belt loose", ""), strict=True):
+        metrics = entry.metrics
+        assert metrics is not None and metrics.settling_time is not None
+        for told in (
+            f"Run {entry.number}, axis X: Manual",
+            f"Step of 0.5008 in (319 counts) with {gains_words(entry.gains)}; torque limit 9.998 V.",  # 319 / 637
+            f"overshoot {metrics.overshoot:.0%}, settled in {metrics.settling_time * 1000:.0f} ms",
+            f"steady error {metrics.steady_error:.1f} counts",
+            note,
+        ):
+            assert told in paper, told
+    click(book.preview.buttons["Close"])
     again = Logbook(book.book.file)
     assert [entry.note for entry in again.entries] == ["Belt loose", ""] and again.skipped == 0
     click(page.back)

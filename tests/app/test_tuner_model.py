@@ -95,7 +95,9 @@ def _margin_and_keys(stage: Stage, panel: TunerPanel) -> None:
     assert plot is not None
     before, gains = part.proposal, panel.manual.gains.texts
     stage.go()  # the diagram has found its range
-    aside = plot.phase.getViewBox().viewRange()[0][0] + 0.5
+    (left, _), (_, high) = plot.phase.getViewBox().viewRange()
+    aside = left + 0.5
+    assert high > 85.0 - 180.0  # room for the largest margin that can be asked for
     drag(plot.phase.viewport(), at(plot.phase, aside, plot.margin.value()), at(plot.phase, aside, 75.0 - 180.0))
     worked(stage, lambda: part.proposal is not before)
     assert float(panel.model.phase.text()) == pytest.approx(75, abs=4)

@@ -92,7 +92,9 @@ class BodePlot(QWidget):
         for line, other in ((self.crossover, self.below), (self.below, self.crossover)):
             line.sigPositionChanged.connect(lambda moved, other=other: self._along(moved, other))
         self.margin.sigPositionChanged.connect(lambda _: self._tell())
+        self._followed: list[tuple[BodePart, list[bool]]] = []  # what follows its curves again after a drag
         for line in (self.crossover, self.below, self.margin):
+            line.sigDragged.connect(lambda _: self._hold())
             line.sigPositionChangeFinished.connect(self._dragged)
         self.margin.setBounds((LEAST_PHASE - 180.0, MOST_PHASE - 180.0))
         self.phase.setXLink(self.gain)
@@ -144,6 +146,13 @@ class BodePlot(QWidget):
             other.put(float(moved.value()))
         self._tell()
 
+    def _hold(self) -> None:
+        """While a handle is dragged the scales stand still: it would run away from the mouse."""
+        if not self._followed:
+            self._followed = [(plot, plot.getViewBox().autoRangeEnabled()) for plot in (self.gain, self.phase)]
+            for plot, _ in self._followed:
+                plot.getViewBox().disableAutoRange()
+
     # ---- drawn
 
     def _make_items(self) -> None:
@@ -155,6 +164,7 @@ class BodePlot(QWidget):
         self._levels = [pyqtgraph.InfiniteLine(pos=level, angle=0) for level in (0.0, -180.0)]
         self.gain.addItem(self._levels[0])
         self.phase.addItem(self._levels[1])
+        self.phase.addItem(pyqtgraph.InfiniteLine(pos=MOST_PHASE - 180.0, angle=0, pen=None))  # room for the handle
         self.gain.addItem(self.crossover)
         for handle in (self.below, self.margin):
             self.phase.addItem(handle)
@@ -207,7 +217,10 @@ class BodePlot(QWidget):
     # ---- moved by the person
 
     def _dragged(self, *_: Any) -> None:
-        """Let go of a handle: the gains follow."""
+        """Let go of a handle: the gains follow, and so do the scales."""
+        for plot, (aside, up) in self._followed:
+            plot.getViewBox().enableAutoRange(x=aside, y=up)
+        self._followed = []
         if self._asked != (self._crossover, self._margin):
             self._crossover, self._margin = self._asked
             self.target_wanted.emit(self._crossover, self._margin)

@@ -237,7 +237,7 @@ class LogbookPage(QWidget):
         row.addWidget(self.report)
         row.addStretch(1)
         column.addLayout(row)
-        self.runs.itemChanged.connect(lambda _item: self._told())
+        self.runs.itemChanged.connect(lambda _item: self.tell())
         self.runs.currentRowChanged.connect(lambda _row: self._chosen())
         self.note.editingFinished.connect(self._noted)
         self.back.clicked.connect(lambda: self.back_wanted.emit(self.chosen))
@@ -260,7 +260,7 @@ class LogbookPage(QWidget):
         )
 
     def show_entries(self, entries: Sequence[Entry]) -> None:
-        """All runs of the machine, the newest first; ticks and choice stay."""
+        """All runs of the machine, the newest first; ticks and choice stay, and so does what is drawn."""
         ticked, chosen = set(self.ticked), self.chosen
         self._entries, self._filling = tuple(entries), True
         self.runs.clear()
@@ -273,7 +273,7 @@ class LogbookPage(QWidget):
             if entry.number == chosen:
                 self.runs.setCurrentItem(item)
         self._filling = False
-        self._chosen()
+        self._describe()
 
     def _entry(self) -> Entry | None:
         return next((each for each in self._entries if each.number == self.chosen), None)
@@ -281,6 +281,10 @@ class LogbookPage(QWidget):
     def _chosen(self) -> None:
         if self._filling:
             return
+        self._describe()
+        self.tell()
+
+    def _describe(self) -> None:
         entry = self._entry()
         told = NO_RUNS if not self._entries else "Choose a run to see it; tick others to lay them over it."
         set_text(self.words, told if entry is None else f"{gains_words(entry.gains)}. {entry.words}")
@@ -288,9 +292,9 @@ class LogbookPage(QWidget):
             widget.setEnabled(entry is not None)
         self.report.setEnabled(bool(self._entries))
         self.note.setText(entry.note if entry is not None else "")
-        self._told()
 
-    def _told(self) -> None:
+    def tell(self) -> None:
+        """What is ticked and chosen is to be drawn."""
         if not self._filling:
             self.shown.emit((*(each for each in self.ticked if each != self.chosen), self.chosen))
 
