@@ -122,6 +122,7 @@ def write_pdf(pages: QTextDocument, path: Path) -> str:
     writer = QPdfWriter(str(path))
     writer.setPageLayout(_layout())
     writer.setResolution(RESOLUTION)
+    writer.setTitle(pages.metaInformation(QTextDocument.MetaInformation.DocumentTitle))
     painter = QPainter()
     if not painter.begin(writer):
         return f"{path.name} cannot be written"
