@@ -92,15 +92,15 @@ def derive(capture: Capture, kind: Derived, axis: str) -> Curve | None:
     scale, unit = capture.scale(source)
     per = "/s" if kind is Derived.VELOCITY else "/s²"
     if capture.moments is not None:
-        values = _fitted(kind, capture.moments, capture.of(source) / scale)
+        values = _fitted(kind, capture.moments, capture.of(source)) / scale
     else:
         calculate = velocity if kind is Derived.VELOCITY else acceleration
-        values = calculate(capture.of(source) / scale, capture.interval_s)
+        values = calculate(capture.of(source), capture.interval_s) / scale  # of whole counts: 0 is 0
     return Curve(f"{kind} {axis}", f"{unit}{per}", str(kind), axis, values, source, kind)
 
 
 def velocity(places: Values, interval_s: float) -> Values:
-    """By differences from the element before to the one behind; units a second."""
+    """By differences from the element before to the one behind, at the ends to the neighbour; units a second."""
     found: Values = np.gradient(places, interval_s)
     return found
 

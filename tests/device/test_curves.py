@@ -31,6 +31,35 @@ def test_a_parabola_has_the_velocity_and_acceleration_of_its_derivatives() -> No
     assert (speed.unit, change.unit) == ("counts/s", "counts/s²")
 
 
+def test_derived_values_at_the_ends_and_of_few_values() -> None:
+    """At an end the velocity is that of the half interval inside, a·T/2 away; the acceleration is its neighbour's."""
+    t = np.arange(6) * DT
+    capture = taken(0.5 * 3000.0 * t**2, POSITION)
+    speed, change = derive(capture, Derived.VELOCITY, "X"), derive(capture, Derived.ACCELERATION, "X")
+    assert speed is not None and change is not None
+    np.testing.assert_allclose(speed.values[[0, -1]], [3000 * DT / 2, 3000 * (t[-1] - DT / 2)])
+    np.testing.assert_allclose(change.values[[0, -1]], 3000.0)
+    assert derive(taken(np.zeros(2), POSITION), Derived.VELOCITY, "X") is None  # two values are no curve
+    part = taken(np.array([0.0, 3.0, np.nan, np.nan]), POSITION)
+    speed = derive(part, Derived.VELOCITY, "X")
+    assert speed is not None and np.isnan(speed.values[2:]).all()  # nothing is made up where nothing was read
+
+
+@pytest.mark.parametrize("tm", [250.0, 1000.0, 2000.0, -1000.0])
+def test_times_and_frequencies_are_those_of_the_sample_time(tm: float) -> None:
+    """A sample is TM/1 024 000 s; a negative TM (an external clock) has the same length, which is all that is known."""
+    count, line, interval = 512, 16, 8 * abs(tm) / 1_024_000
+    values = 5 * np.sin(2 * math.pi * line / count * np.arange(count))
+    capture = Capture((POSITION,), values[None, :], 3, tm, trigger=100)
+    assert capture.interval_s == pytest.approx(interval) and capture.times[100] == 0
+    assert capture.times[0] == pytest.approx(-100 * interval)
+    hertz, lines = spectrum(capture.of(POSITION), capture.interval_s, Window.HANN)
+    assert hertz[int(np.argmax(lines))] == pytest.approx(line / (count * interval))
+    assert measure(capture.times, capture.of(POSITION)).frequency_hz == pytest.approx(
+        line / (count * interval), rel=1e-3
+    )
+
+
 def test_units_are_those_of_the_axis() -> None:
     setup = Setup(model="ssc1").with_axis("X", Axis(unit="mm", counts_per_unit="500"))
     capture = taken(np.array([[0.0, 250.0, 500.0], [0.0, 300.0, 500.0]]), POSITION, COMMANDED, setup=setup)

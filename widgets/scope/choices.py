@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -24,6 +25,7 @@ from codegen.setup import Setup
 from device.capture import (
     FEWEST,
     SLOWEST,
+    TICKS_S,
     Channel,
     Plan,
     Trigger,
@@ -36,6 +38,7 @@ from device.capture import (
 )
 from device.curves import Derived
 from widgets.panel import set_text
+from widgets.parts.spin import indented
 from widgets.scope.slot import Slot
 
 SLOTS = 4
@@ -58,6 +61,7 @@ class Choices(QWidget):
         super().__init__(parent)
         self._model: Model | None = None
         self._setup: Setup | None = None
+        self._tm = 0.0  # what the controller says; 0: not known
         self._count, self._axis, self._input = 500, "X", 1  # what the person wants, also where it does not fit now
         self.slots = [Slot(number) for number in range(1, SLOTS + 1)]
         self.derived = {kind: QCheckBox(kind) for kind in Derived}
@@ -66,6 +70,8 @@ class Choices(QWidget):
         self.axis, self.input, self.edge = QComboBox(), QSpinBox(), QComboBox()
         self.level_of, self.level, self.level_unit = QComboBox(), QLineEdit("0"), QLabel()
         self.before = QSpinBox()
+        for box in (self.count, self.input, self.before):
+            indented(box)
         for slot, usual in zip(self.slots, USUAL, strict=True):
             slot.wanted = usual
         self._name_all()
@@ -135,6 +141,18 @@ class Choices(QWidget):
         self._offer()
         self._follow()
 
+    def show_period(self, tm: float) -> None:
+        """The sample time that the controller works with; where it is not known, that of the setup counts."""
+        tm = abs(tm) if math.isfinite(tm) else 0.0
+        if tm != self._tm:
+            self._tm = tm
+            self._follow()
+
+    @property
+    def _sample_s(self) -> float:
+        setup = float(self._setup.sample) if self._setup is not None else 1000.0
+        return (self._tm or setup) / TICKS_S
+
     def _offer(self) -> None:
         """What there is on this controller, with what the person wants chosen as far as it is there."""
         if self._model is None:
@@ -189,7 +207,7 @@ class Choices(QWidget):
     def _follow(self) -> None:
         """Everything that depends on something else."""
         when, several = self.when, max(1, len(self.channels))
-        sample_s = float(self._setup.sample) / 1_024_000 if self._setup is not None else 1000 / 1_024_000
+        sample_s = self._sample_s
         for place in range(SLOWEST):
             every = 2 << place
             self.every.setItemText(place, f"{every} samples, {every * sample_s * 1000:.3g} ms")
@@ -294,6 +312,8 @@ class Choices(QWidget):
         form = self._form = QFormLayout()
         form.setContentsMargins(0, 4, 0, 0)
         form.setVerticalSpacing(4)
+        form.setHorizontalSpacing(8)
+        form.setLabelAlignment(Qt.AlignmentFlag.AlignVCenter)
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         values, level = QHBoxLayout(), QHBoxLayout()
         values.addWidget(self.count, 1)

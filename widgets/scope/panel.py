@@ -53,9 +53,14 @@ class ScopePanel(Panel):
         if old is None or old.setup is not new.setup:
             self._tell()
 
+    def watches(self) -> tuple[str, ...]:
+        """The sample time: how often a value is taken depends on it."""
+        return ("period",) if self.body is not None else ()
+
     def refresh(self, row: Row) -> None:
         if self.body is not None and self.controller is not None:
             self._tell()
+            self.body.choices.show_period(row.value("period"))
             self.body.refresh(self.controller)
 
     def _tell(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
 from codegen.setup import Setup, Unit
 from codegen.setup_axis import Axis
 from device.capture import Capture, Channel
+from device.curves import Derived
 from tests.widgets.scope.hands import LEFT, choose, click, given
 from widgets.parts.look import look
 from widgets.scope.bar import View
@@ -61,6 +63,33 @@ def test_axes_of_different_units_have_strips_of_their_own(qapp: QApplication, bo
     body.add(Capture((X, Y), np.full((2, 50), 100.0), 2, 1000.0, setup=setup))
     assert [title(body, name) for name in body.chart.strips] == ["Position (mm)", "Position (deg)"]
     assert [body.readings.reading("Mean", name) for name in ("Position X", "Position Y")] == ["0.2 mm", "10 deg"]
+
+
+def test_what_lies_between_the_cursors_is_measured(qapp: QApplication, body: Body) -> None:
+    """X runs 3 counts an interval (0.006 mm in 1/256 s: 1.536 mm/s), from A at value 20 to B at value 60, both counted.
+
+    41 values in equal steps d around their mean m: rms² = m² + d² (41² - 1)/12.
+    """
+    n = np.arange(100.0)
+    dt, d = 1 / 256, 3 / 500
+    body.add(Capture((X,), 3 * n[None, :], 2, 1000.0, setup=body._setup))
+    body.choices.derived[Derived.VELOCITY].click()
+    body.choices.derived[Derived.ACCELERATION].click()
+    body.chart.show_cursors((60 * dt, 20 * dt))  # whichever is first in time
+    read = body.readings.reading
+    assert [read(row, "Position X") for row in ("At A", "At B", "B − A")] == ["0.36 mm", "0.12 mm", "-0.24 mm"]
+    assert [read(row, "Position X") for row in ("Least", "Most", "Mean", "Peak to peak")] == [
+        "0.12 mm", "0.36 mm", "0.24 mm", "0.24 mm"
+    ]  # fmt: skip
+    assert read("RMS", "Position X") == f"{math.sqrt((40 * d) ** 2 + d**2 * (41**2 - 1) / 12):.5g} mm"
+    assert read("Rise 10–90 %", "Position X").split()[1] == "ms"
+    assert [read(row, "Velocity X") for row in ("At A", "B − A", "RMS")] == ["1.536 mm/s", "0 mm/s", "1.536 mm/s"]
+    assert read("Most", "Acceleration X") == "0 mm/s²" and read("Frequency", "Position X") == "–"
+    assert body.between.text() == "A 234.38 ms   B 78.125 ms   B − A -156.25 ms   1/(B − A) 6.4 Hz"
+    body.chart.show_cursors((0.0, 99 * dt))
+    assert [read(row, "Velocity X") for row in ("At A", "At B")] == ["1.536 mm/s"] * 2  # ends of a straight line too
+    body.chart.show_cursors((-dt, 99.5 * dt))
+    assert [read(row, "Position X") for row in ("At A", "At B", "B − A")] == ["–"] * 3  # nothing was captured there
 
 
 def test_the_picture_goes_into_a_file_and_colours_are_chosen(qapp: QApplication, body: Body, tmp_path: Path) -> None:

@@ -25,8 +25,8 @@ def test_a_move_is_captured_by_keys_and_mouse(stage: Stage) -> None:
     body = scope(stage)
     choose(body.choices.slots[2].what, "Motor command X")
     QTest.mouseClick(body.choices.derived[Derived.VELOCITY], LEFT, pos=QPoint(12, 12))
-    choose(body.choices.every, body.choices.every.itemText(1))  # each 4 samples
-    enter(body.choices.count, "140")
+    choose(body.choices.every, body.choices.every.itemText(2))  # each 8 samples
+    enter(body.choices.count, "70")
     choose(body.choices.begin, "Motion begins")
     assert "because Commanded position X is recorded" in body.choices.hint.text()
     click(body.bar.capture)
@@ -38,9 +38,9 @@ def test_a_move_is_captured_by_keys_and_mouse(stage: Stage) -> None:
     while stage.studio.at_machine.scope.job is not None:
         stage.go(1)
         shown = body.shown
-        partly |= shown is not None and 0 < shown.count < 140 and not body.empty.isVisible()
+        partly |= shown is not None and 0 < shown.count < 70 and not body.empty.isVisible()
     found = finished(stage)
-    assert partly and found.complete and found.count == 140 and found.early == 0
+    assert partly and found.complete and found.count == 70 and found.early == 0
     assert body.picture is not None and [line.label for line in body.picture.lines] == [
         "Position X", "Commanded position X", "Motor command X", "Velocity X",
     ]  # fmt: skip
