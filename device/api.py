@@ -157,7 +157,7 @@ class Controller:
 
     def release_control(self, why: str = "Watch: only reading and STOP.") -> None:
         self.io_control = False
-        self.motion.let_go()
+        self.motion.let_go(watching=True)
         if self.door.control:
             self.door.control = False
             self.notify(NoticeKind.CONTROL, why)

@@ -37,6 +37,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from codegen.fields import Dimension
 from device.commands import SETTLING
 from device.going import Ended, Going
+from device.happenings import NoticeKind
 from device.jog import Places, Plan, axes_driven, told
 from device.lease import COUNTS, EXCHANGE, FLAG, LINE_S, Exchange, Lease, Ran, StopNeeded
 from device.poll import requests
@@ -158,8 +159,17 @@ class Motion:
             return refused("Not moved: switch the latch on to let a jog go on by itself.")
         return self._lease(axis, speed_counts_s, acceleration, deceleration, owner, latched=True)
 
-    def let_go(self) -> None:
-        """STOP, Watch, another controller: nothing is held and nothing latched any more."""
+    def let_go(self, watching: bool = False) -> None:
+        """STOP, Watch, another controller: nothing is held and nothing latched any more.
+
+        Watch (a lost line, too) lets nothing be put back: what stays in the controller is told.
+        """
+        if watching and self.busy and self._now is not None and self._now.as_before:
+            before = "; ".join(self._now.as_before)
+            self._c.notify(
+                NoticeKind.CONTROL,
+                f"{self.busy}: let go, and its speeds and ramps stay in the controller. Before it: {before}.",
+            )
         self.latch = False
         self.release()
 

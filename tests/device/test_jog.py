@@ -54,6 +54,30 @@ def test_a_place_asks_for_homed() -> None:
     assert go(bench, jog.to("X", -700, 20_000, RAMP, RAMP), confirmed=True).places == {"X": -700}
 
 
+@pytest.mark.parametrize("cut", [False, True])
+def test_speeds_that_cannot_be_put_back_are_told(cut: bool) -> None:
+    """In Watch, and when the line is lost, nothing may be sent any more."""
+    bench = Bench("ssc2", kind=Kind.MACHINE).ready()
+    bench.controller.take_control()
+    for command in ("SH", "SP 31000", "AC 512000"):
+        bench.ask(command)
+    future = bench.controller.motion.go(jog.by("X", 100_000, 20_000, RAMP, RAMP))
+    bench.run_until(lambda: places(bench)["X"] > 1000)
+    bench.controller.notices()
+    if cut:
+        bench.loopback.unplugged = True
+    else:
+        bench.controller.release_control()
+    bench.controller.watch("test", ["position.x"])
+    bench.run_until(lambda: not bench.controller.control)
+    told = [notice.text for notice in bench.controller.notices()]
+    before = "Before it: SP 31000; AC 512000; DC 256000."
+    assert f"Move X by 100000 counts: let go, and its speeds and ramps stay in the controller. {before}" in told
+    bench.loopback.unplugged = False
+    bench.run_until(future.done)
+    assert bench.result(bench.controller.read("_SPX")) == (20_000,)
+
+
 @pytest.mark.parametrize(
     ("counts", "word"), [(12_000, "forward limit, 10000 counts"), (-600, "reverse limit, -500 counts")]
 )
