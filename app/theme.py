@@ -63,6 +63,7 @@ class Theme(QObject):
         application.setProperty(PROPERTY, wanted)
         application.setFont(wanted.body_font())
         application.setPalette(make_palette(wanted))
+        application.setStyleSheet("")  # over another sheet Qt dresses each widget once for everything around it
         application.setStyleSheet(style_sheet(self._table, wanted))
 
 
