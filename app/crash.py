@@ -16,13 +16,14 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
     QVBoxLayout,
     QWidget,
 )
+
+from widgets.parts.foot import foot
 
 Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
 
@@ -47,16 +48,12 @@ class CrashDialog(QDialog):
         self.close_button.setProperty("role", "primary")
         self.copy_button.clicked.connect(lambda: QGuiApplication.clipboard().setText(text))
         self.close_button.clicked.connect(self.accept)
-        foot = QHBoxLayout()
-        foot.addWidget(self.copy_button)
-        foot.addStretch(1)
-        foot.addWidget(self.close_button)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
         column.setSpacing(16)
         column.addWidget(words)
         column.addWidget(self.text, 1)
-        column.addLayout(foot)
+        column.addWidget(foot(away=self.close_button, left=(self.copy_button,)))
         self.resize(720, 440)
 
 

@@ -28,6 +28,7 @@ ELSEWHERE = {
     "window",
     "folded",
     "jog_speeds",
+    "variable_names",
     "scope",
     "teach",
     "tuner",

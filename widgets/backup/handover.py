@@ -8,7 +8,6 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPlainTextEdit,
@@ -21,6 +20,7 @@ from codegen.document import Document
 from codegen.handover import Handover, first_line
 from codegen.models import MODELS
 from widgets.panel import set_text
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 WITHOUT = "Without a revision the code carries no comment: nobody can tell from the controller which program it runs."
@@ -115,16 +115,12 @@ class HandoverPage(QDialog):
             ("In the code", self.line),
         ):
             form.addRow(name, widget)
-        foot = QHBoxLayout()
-        foot.addWidget(self.pack)
-        foot.addStretch(1)
-        foot.addWidget(self.shut)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 16, 24, 16)
         column.setSpacing(12)
         column.addLayout(form)
         column.addWidget(self.words)
-        column.addLayout(foot)
+        column.addWidget(foot(away=self.shut, left=(self.pack,)))
 
 
 def _line(name: str, hint: str) -> QLineEdit:

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QDialog, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from widgets.panel import set_text
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 
@@ -64,16 +65,13 @@ class Replacing(QDialog):
         shut = QPushButton("Close")
         shut.setAutoDefault(False)
         shut.clicked.connect(self.accept)
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(shut)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 16, 24, 16)
         column.setSpacing(16)
         column.addWidget(heading)
         column.addWidget(self.state)
         column.addLayout(grid)
-        column.addLayout(foot)
+        column.addWidget(foot(away=shut))
         self.setMinimumWidth(680)
 
     def show_state(self, words: str, reasons: dict[str, str]) -> None:

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.panel import set_text
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 HEIGHT = 32  # px of a row
@@ -192,16 +193,16 @@ class BackupWindow(QDialog):
         halves.addWidget(left)
         halves.addWidget(right)
         halves.setSizes([460, 480])
-        foot = QHBoxLayout()
-        foot.addWidget(self.buttons["Replace controller…"])
+        row = QHBoxLayout()
+        row.addWidget(self.buttons["Replace controller…"])
         for widget in (self.doing, self.bar, self.cancel):
-            foot.addWidget(widget)
-        foot.addStretch(1)
-        foot.addWidget(self.shut)
+            row.addWidget(widget)
+        row.addStretch(1)
+        row.addWidget(foot(away=self.shut))
         column = _column(self, 16)
         column.addWidget(self.who)
         column.addWidget(halves, 1)
-        column.addLayout(foot)
+        column.addLayout(row)
 
 
 def _column(widget: QWidget, margin: int) -> QVBoxLayout:

@@ -23,6 +23,7 @@ from widgets.commissioning.page import Entry, Page
 from widgets.commissioning.page_view import PageView
 from widgets.commissioning.steps_list import StepsList
 from widgets.panel import set_text
+from widgets.parts.foot import foot
 from widgets.parts.kind import KindFrame
 from widgets.parts.stop_button import StopButton
 
@@ -157,12 +158,6 @@ class CommissioningWindow(QDialog):
         inside.setSpacing(0)
         inside.addWidget(self.steps)
         inside.addWidget(self._area, 1)
-        foot = QHBoxLayout()
-        for button in (self.again, self.report):
-            foot.addWidget(button)
-        foot.addStretch(1)
-        for button in (self.skip, self.back, self.next, self.close_):
-            foot.addWidget(button)
         for button in (self.again, self.report, self.skip, self.back, self.next, self.close_):
             button.setAutoDefault(False)
         column = QVBoxLayout(self)
@@ -170,5 +165,5 @@ class CommissioningWindow(QDialog):
         column.setSpacing(12)
         column.addLayout(head)
         column.addWidget(self.frame, 1)
-        column.addLayout(foot)
+        column.addWidget(foot(None, self.skip, self.back, self.next, away=self.close_, left=(self.again, self.report)))
         self.resize(1120, min(870, self.screen().availableSize().height()))

@@ -25,6 +25,7 @@ from codegen.difference import PLACES, Difference
 from codegen.difference_report import Report
 from codegen.difference_values import ValueDifference
 from widgets.panel import set_text
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 HEADERS = ("What differs", "In the file", "In the controller", "In the EEPROM")
@@ -115,19 +116,18 @@ class CompareWindow(QDialog):
             self.step_wanted.emit(self.tables["Program"].currentRow())
 
     def _lay_out(self) -> None:
-        foot = QHBoxLayout()
-        foot.addWidget(self.read)
-        foot.addWidget(self.cancel)
-        foot.addWidget(self.doing, 1)
-        foot.addWidget(self.go)
-        foot.addWidget(self.shut)
+        row = QHBoxLayout()
+        row.addWidget(self.read)
+        row.addWidget(self.cancel)
+        row.addWidget(self.doing, 1)
+        row.addWidget(foot(self.go, away=self.shut))
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
         column.addWidget(self.summary)
         column.addWidget(self.tabs, 1)
         column.addWidget(self.code)
-        column.addLayout(foot)
+        column.addLayout(row)
 
 
 def _plain(text: str) -> QPushButton:

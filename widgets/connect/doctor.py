@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from widgets.connect.dip_switches import DipSwitches
 from widgets.connect.rates import RATES
+from widgets.parts.foot import foot
 
 NOTE = (
     "Only an empty line and a request for the version are sent; another kind of device may take even that for an order."
@@ -120,11 +121,6 @@ class DoctorWindow(QDialog):
         top.addWidget(self.ports, 1)
         top.addWidget(self.examine)
         top.addWidget(self.cancel)
-        foot = QHBoxLayout()
-        foot.addWidget(self.more)
-        foot.addStretch(1)
-        foot.addWidget(self.close_)
-        foot.addWidget(self.take)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
         column.setSpacing(12)
@@ -133,7 +129,7 @@ class DoctorWindow(QDialog):
             column.addWidget(widget)
         column.addWidget(self.switches, 0, Qt.AlignmentFlag.AlignHCenter)
         column.addStretch(1)
-        column.addLayout(foot)
+        column.addWidget(foot(self.take, away=self.close_, explains=self.more))
         self.setMinimumWidth(560)
 
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from widgets.connect.dip_switches import DipSwitches
 from widgets.connect.rates import RATES
+from widgets.parts.foot import foot
 
 HANDSHAKES = {"both": "XON/XOFF and RTS/CTS", "rts": "RTS/CTS", "xon": "XON/XOFF", "none": "None"}
 PARITIES = {"none": "None", "even": "Even", "odd": "Odd"}
@@ -161,18 +162,13 @@ class SerialSetup(QDialog):
         middle.setSpacing(32)
         middle.addLayout(form)
         middle.addLayout(side)
-        foot = QHBoxLayout()
-        foot.addWidget(self.again)
-        foot.addStretch(1)
-        foot.addWidget(self.cancel)
-        foot.addWidget(self.connect_button)
         self.connect_button.setProperty("role", "primary")
         self.connect_button.setDefault(True)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
         column.setSpacing(24)
         column.addLayout(middle)
-        column.addLayout(foot)
+        column.addWidget(foot(self.connect_button, away=self.cancel, left=(self.again,)))
 
     def _wire(self) -> None:
         self.baud.currentIndexChanged.connect(self._judge)

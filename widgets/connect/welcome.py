@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QDialog, QFrame, QHBoxLayout, QLabel, QProgressBar, QPushButton, QVBoxLayout, QWidget
 
+from widgets.parts.foot import foot
 from widgets.parts.icons import icon
 
 DANGER = "Machinery in motion is dangerous. STOP (F12) is not an emergency stop: keep the machine's own within reach."
@@ -112,18 +113,13 @@ class Welcome(QDialog):
         danger.setProperty("role", "note")
         column.addWidget(danger)
         column.addStretch(1)
-        foot = QHBoxLayout()
         self.again.setIcon(icon("refresh"))
         self.again.clicked.connect(lambda: self.way.emit("again"))
         self.exit.clicked.connect(lambda: self.way.emit("exit"))
         self.doctor.setIcon(icon("search"))
         self.doctor.setToolTip("Examines a port: cable, speed, handshake, permission; says what to do")
         self.doctor.clicked.connect(lambda: self.way.emit("doctor"))
-        foot.addWidget(self.again)
-        foot.addWidget(self.doctor)
-        foot.addStretch(1)
-        foot.addWidget(self.exit)
-        column.addLayout(foot)
+        column.addWidget(foot(away=self.exit, left=(self.again, self.doctor)))
         self.setMinimumWidth(608)
 
     def _question(self) -> QFrame:
@@ -132,15 +128,11 @@ class Welcome(QDialog):
         self.allow.setProperty("role", "primary")
         self.allow.clicked.connect(lambda: self.way.emit("allow"))
         self.skip.clicked.connect(lambda: self.way.emit("skip"))
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(self.skip)
-        buttons.addWidget(self.allow)
         column = QVBoxLayout(self.ask)
         column.setContentsMargins(16, 12, 16, 12)
         column.setSpacing(12)
         column.addWidget(self.question)
-        column.addLayout(buttons)
+        column.addWidget(foot(self.allow, away=self.skip))
         return self.ask
 
     def _button(self, way: Way) -> QPushButton:

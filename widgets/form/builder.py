@@ -29,6 +29,7 @@ from codegen.ingredients import Ingredient, ingredients
 from codegen.numbers import number_problem, parse_number, shown
 from widgets.form.judge import Judge
 from widgets.form.offers import Offers
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 WHAT = Qt.ItemDataRole.UserRole
@@ -113,14 +114,10 @@ class ExpressionBuilder(QDialog):
         column.addWidget(self.tree, 1)
         self.about.setMinimumHeight(2 * self.about.fontMetrics().height())
         column.addWidget(self.about)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
         for button in (self.use, self.cancel):
-            button.setMinimumHeight(look().control)
             button.setAutoDefault(False)
-            buttons.addWidget(button)
         self.use.setProperty("role", "primary")
-        column.addLayout(buttons)
+        column.addWidget(foot(self.use, away=self.cancel))
         self.resize(560, 560)
 
     def _join(self) -> None:

@@ -19,6 +19,7 @@ from widgets.form.buttons import Buttons
 from widgets.form.form import InstructionForm
 from widgets.form.offers import Offers
 from widgets.form.room import keep_on_screen, room, settle
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 LEAST_WIDTH = 560  # px
@@ -114,7 +115,8 @@ class InstructionDialog(QDialog):
             column.addLayout(self._section_row())
         column.addWidget(self.form, 1)
         column.addWidget(self.note)
-        column.addLayout(self._button_row())
+        *adds, away, explains = self.buttons.values()
+        column.addWidget(foot(*adds, away=away, explains=explains))
         self.form.area.content_changed.connect(self.fit)
 
     def _section_row(self) -> QHBoxLayout:
@@ -142,16 +144,6 @@ class InstructionDialog(QDialog):
         buttons["Cancel"].clicked.connect(self.reject)
         buttons["Help"].clicked.connect(lambda: self.help_requested.emit(self.form.instruction.title))
         return buttons
-
-    def _button_row(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.buttons["Help"])
-        row.addStretch(1)
-        for name, button in self.buttons.items():
-            if name != "Help":
-                row.addWidget(button)
-        return row
 
     # ---- size
 

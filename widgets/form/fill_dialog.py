@@ -24,6 +24,7 @@ from codegen.formula import ROW, fill
 from codegen.laws import LAW_HELP, LAW_WORDS, Law, rise
 from codegen.numbers import number_problem, parse_number
 from codegen.sheets import Column, Sheet
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 FORMULA = "formula"
@@ -109,17 +110,12 @@ class FillDialog(QDialog):
             widget.setAccessibleName(words)
         self.first.setAccessibleName("First row")
         self.last.setAccessibleName("Last row")
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        for button in (self.fill, self.done_button):
-            button.setMinimumHeight(look().control)
-            buttons.addWidget(button)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(16, 12, 16, 12)
         whole.addLayout(self.form)
         whole.addWidget(self.about)
         whole.addWidget(self.preview)
-        whole.addLayout(buttons)
+        whole.addWidget(foot(self.fill, away=self.done_button))
         self.setMinimumWidth(400)
 
     # ---- showing

@@ -13,12 +13,14 @@ from PySide6.QtWidgets import (
     QDialog,
     QDoubleSpinBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QVBoxLayout,
     QWidget,
 )
+
+from widgets.parts.foot import foot
+from widgets.parts.spin import indented
 
 
 @dataclass(frozen=True)
@@ -68,14 +70,11 @@ class OptionsPage(QDialog):
             self._add(grid, option.label, option.help, self.editors[option.key])
         for each in kept:
             self._add(grid, each.label, each.help, self.forget[each.key])
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(self.close_button)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
         column.setSpacing(24)
         column.addLayout(grid)
-        column.addLayout(foot)
+        column.addWidget(foot(away=self.close_button))
         self.setMinimumWidth(640)
 
     @staticmethod
@@ -105,11 +104,10 @@ class OptionsPage(QDialog):
             tick.setChecked(option.value)
             tick.toggled.connect(lambda on: self.changed.emit(option.key, on))
             return tick
-        number = QDoubleSpinBox()
+        number = indented(QDoubleSpinBox())
         number.setLocale(QLocale.c())  # a point, whatever the system writes
         number.setRange(option.low, option.high)
         number.setDecimals(1)
-        number.lineEdit().setTextMargins(6, 0, 0, 0)
         number.setSuffix(f" {option.unit}")
         number.setValue(float(option.value))
         number.setKeyboardTracking(False)

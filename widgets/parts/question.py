@@ -8,6 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QApplication, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from widgets.help.topic import topic_of
+from widgets.parts.foot import foot
 from widgets.parts.icons import icon
 
 
@@ -47,24 +48,20 @@ class Question(QDialog):
         top.setSpacing(16)
         top.addWidget(drawing, 0, Qt.AlignmentFlag.AlignTop)
         top.addLayout(texts, 1)
-        foot = QHBoxLayout()
-        foot.addStretch(1)
         cancel = QPushButton("Cancel" if answers else "Close")
         cancel.clicked.connect(self.reject)
-        foot.addWidget(cancel)
-        for number, (label, call) in enumerate(reversed(answers)):
+        for number, (label, call) in enumerate(answers):
             button = QPushButton(label)
             button.clicked.connect(lambda _=False, call=call: self._answer(call))
-            if number == len(answers) - 1:
+            if number == 0:
                 button.setProperty("role", "primary")
                 button.setDefault(True)
-            foot.addWidget(button)
             self.buttons[label] = button
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
         column.setSpacing(24)
         column.addLayout(top)
-        column.addLayout(foot)
+        column.addWidget(foot(*self.buttons.values(), away=cancel))
         if answers:
             self.buttons[answers[0][0]].setFocus()
 

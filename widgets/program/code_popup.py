@@ -7,6 +7,7 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from codegen.program import Step
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 from widgets.program.words import Words
 
@@ -38,7 +39,7 @@ class CodePopup(QDialog):
         column.setSpacing(12)
         for widget in (sentence, self.code):
             column.addWidget(widget)
-        column.addWidget(close, 0, Qt.AlignmentFlag.AlignRight)
+        column.addWidget(foot(away=close))
         self.setMinimumWidth(360)
         QShortcut(QKeySequence("Ctrl+D"), self, activated=self.accept)
         close.setFocus()

@@ -8,7 +8,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
@@ -19,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from codegen.modules import Rename
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 HEADINGS = ("Kind", "Name in the module", "Becomes", "")
@@ -45,17 +45,12 @@ class ImportWindow(QDialog):
         self.take.setDefault(True)
         self.take.clicked.connect(self._confirm)
         cancel.clicked.connect(self.reject)
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        for button in (cancel, self.take):
-            button.setMinimumHeight(look().control)
-            foot.addWidget(button)
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
         column.addWidget(self.words)
         column.addWidget(self.table, 1)
-        column.addLayout(foot)
+        column.addWidget(foot(self.take, away=cancel))
         self.table.setVisible(bool(renames))
         self.resize(640, 320 if renames else 160)
 

@@ -25,6 +25,7 @@ from codegen.document import Document
 from codegen.models import MODELS
 from codegen.program import Section, Steps
 from widgets.parts import files
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 from widgets.program.node import TITLES
 from widgets.program.words import Words
@@ -204,8 +205,6 @@ class PrintPreview(QDialog):
         count = pages.pageCount()
         self.count = QLabel("1 page" if count == 1 else f"{count} pages")
         self.count.setProperty("role", "quiet")
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.count, 1)
         self.buttons = {
             text: self._button(text, action)
             for text, action in (
@@ -215,13 +214,15 @@ class PrintPreview(QDialog):
             )
         }
         self.buttons["Print"].setToolTip("Opens the pages in the PDF viewer of this computer, which prints them")
-        for button in self.buttons.values():
-            buttons.addWidget(button)
+        *outs, away = self.buttons.values()
+        row = QHBoxLayout()
+        row.addWidget(self.count, 1)
+        row.addWidget(foot(None, *outs, away=away))
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
         column.addWidget(self.sheets, 1)
-        column.addLayout(buttons)
+        column.addLayout(row)
         self.resize(860, 760)
 
     def print_out(self) -> None:

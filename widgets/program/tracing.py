@@ -26,6 +26,7 @@ from PySide6.QtWidgets import (
 from codegen.generate import Listing
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.slow_mark import mark_of
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 from widgets.program.words import Words
 
@@ -187,7 +188,7 @@ class StatusWindow(QDialog):
         column.setSpacing(12)
         for widget in (self.nothing, self.table):
             column.addWidget(widget)
-        column.addWidget(close, 0, Qt.AlignmentFlag.AlignRight)
+        column.addWidget(foot(away=close))
         self.resize(720, 4 * look().control + 136)
         self._shown: list[Doing] = []
         self.show_doing([])

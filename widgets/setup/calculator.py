@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from codegen.numbers import is_short_decimal, shown
 from codegen.setup import Setup
 from codegen.setup_scale import Drive, Feedback, Mechanics, Scale, drives_for, scale_of
 from widgets.form.fields_form import FieldsForm
 from widgets.form.offers import Offers
+from widgets.parts.foot import foot
 from widgets.setup.pages.page import quiet, say
 
 
@@ -72,10 +73,6 @@ class Calculator(QDialog):
         self.take.setProperty("role", "primary")
         self.take.setDefault(True)
         self.cancel.setAutoDefault(False)
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(self.cancel)
-        foot.addWidget(self.take)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 16, 24, 16)
         column.setSpacing(8)
@@ -85,5 +82,5 @@ class Calculator(QDialog):
         column.addWidget(self.words)
         column.addWidget(self.problem)
         column.addSpacing(8)
-        column.addLayout(foot)
+        column.addWidget(foot(self.take, away=self.cancel))
         self.setMinimumSize(920, 440)

@@ -24,6 +24,7 @@ from codegen.setup import Setup, setup_problems
 from codegen.setup_differences import Key, Readings
 from codegen.setup_plate import plate_problem
 from device.api import Kind, StopState
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 from widgets.parts.stop_button import StopButton
 from widgets.setup.comparing import Comparing
@@ -350,13 +351,8 @@ class SetupWindow(QDialog):
         middle.setSpacing(24)
         middle.addWidget(self.list)
         middle.addWidget(self.stack, 1)
-        foot = QHBoxLayout()
         for button in (self.read, self.burn):
             button.setAutoDefault(False)
-            foot.addWidget(button)
-        foot.addStretch(1)
-        foot.addWidget(self.cancel)
-        foot.addWidget(self.done_button)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 16, 24, 16)
         column.setSpacing(16)
@@ -364,6 +360,6 @@ class SetupWindow(QDialog):
         column.addLayout(middle, 1)
         column.addWidget(self.problem)
         column.addWidget(self.question)
-        column.addLayout(foot)
+        column.addWidget(foot(self.done_button, away=self.cancel, left=(self.read, self.burn)))
         self.page(KINDS[0])
         self.resize(1080, 740)

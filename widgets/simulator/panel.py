@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 
 from device.api import Kind
 from widgets.panel import Panel, set_text
+from widgets.parts.spin import indented
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -30,8 +31,6 @@ if TYPE_CHECKING:
 STARTING = "The simulator is starting."
 EMPTY = "The simulator is not running. Start it to flip its switches and push its load from here."
 SWITCHES = (("fls", "Forward limit"), ("rls", "Reverse limit"), ("home", "Home"))
-
-MARGINS = (8, 0, 4, 0)  # px within the frame, as in every other field
 
 
 class SimulatorPanel(Panel):
@@ -155,7 +154,7 @@ class SimulatorPanel(Panel):
             box.setRange(-10.0, 10.0)
             box.setSingleStep(0.1)
             box.setSuffix(" V")
-            box.lineEdit().setTextMargins(*MARGINS)
+            indented(box)
             box.setFixedWidth(88)
             slider.setMinimumWidth(72)
             box.setAccessibleName(f"Analog input {number} in volts")
@@ -180,7 +179,7 @@ class SimulatorPanel(Panel):
             box.setDecimals(0)
             box.setValue(100)
             box.setSuffix(" counts")
-            box.lineEdit().setTextMargins(*MARGINS)
+            indented(box)
             box.setAccessibleName(f"Push on {letter} in counts")
             button.clicked.connect(
                 lambda _=False, letter=letter, box=box: self.stimulus.emit(f"position_{letter.lower()}", box.value())

@@ -17,6 +17,8 @@ from PySide6.QtWidgets import (
 )
 
 from codegen.setup import Setup
+from widgets.parts.foot import foot
+from widgets.parts.spin import indented
 
 
 class Entry(QDialog):
@@ -33,15 +35,12 @@ class Entry(QDialog):
         self.form = QFormLayout()
         self.add, self.cancel = QPushButton(accept), QPushButton("Cancel")
         self.add.setDefault(True)
+        self.add.setProperty("role", "primary")
         self.add.clicked.connect(self._done)
         self.cancel.clicked.connect(self.reject)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(self.add)
-        buttons.addWidget(self.cancel)
         column = QVBoxLayout(self)
         column.addLayout(self.form)
-        column.addLayout(buttons)
+        column.addWidget(foot(self.add, away=self.cancel))
 
     def text(self) -> str:
         """What the cell gets."""
@@ -77,7 +76,7 @@ class OutputEntry(Entry):
         self.output, self.level = _channels(setup.output_names, setup.outputs, "Output"), QComboBox()
         self.level.setAccessibleName("State")
         self.level.addItems(["On", "Off"])
-        self.byte = QSpinBox()
+        self.byte = indented(QSpinBox())
         self.byte.setAccessibleName("Byte of all outputs")
         self.byte.setRange(0, (1 << min(setup.outputs, 8)) - 1)
         self.bits = QLabel()

@@ -8,7 +8,6 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QTextCharFormat, QTextCursor
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
@@ -17,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from widgets.parts.foot import foot
 from widgets.parts.look import look
 
 
@@ -50,15 +50,11 @@ class CodeWindow(QDialog):
         self.save.setToolTip("Writes it into a file" if theirs else "There is nothing to save")
         self.save.clicked.connect(lambda: self.save_wanted.emit(self.text))
         self.shut.clicked.connect(self.accept)
-        foot = QHBoxLayout()
-        foot.addWidget(self.save)
-        foot.addStretch(1)
-        foot.addWidget(self.shut)
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.addWidget(self.words)
         column.addWidget(tabs, 1)
-        column.addLayout(foot)
+        column.addWidget(foot(away=self.shut, left=(self.save,)))
         self.resize(640, 560)
 
     def add_words(self, sentence: str) -> None:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QLabel,
     QListWidget,
     QListWidgetItem,
@@ -15,6 +14,8 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
+
+from widgets.parts.foot import foot
 
 WORDS = (
     "This work was not saved when the studio ended unexpectedly. Recover opens it, still unsaved; "
@@ -48,17 +49,12 @@ class UnsavedWork(QDialog):
         self.list.itemActivated.connect(lambda _: self.recover_wanted.emit(self.list.currentRow()))
         self.forget.clicked.connect(lambda: self.forget_wanted.emit(self.list.currentRow()))
         self.later.clicked.connect(self.reject)
-        foot = QHBoxLayout()
-        foot.addWidget(self.forget)
-        foot.addStretch(1)
-        foot.addWidget(self.later)
-        foot.addWidget(self.recover)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 16)
         column.setSpacing(12)
         for widget in (heading, words, self.list):
             column.addWidget(widget)
-        column.addLayout(foot)
+        column.addWidget(foot(self.recover, away=self.later, left=(self.forget,)))
         self.resize(640, 360)
 
     def show_work(self, lines: Sequence[str]) -> None:
