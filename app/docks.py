@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
 from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from device.api import Kind, StopState
 from widgets.parts.kind import KindFrame
 from widgets.parts.stop_button import StopButton
+
+NESTED = 6  # what is laid out anew asks what is around it to be, and so on
+
+
+def settle() -> None:
+    """Lays out what has changed before it is painted; Qt would paint diagrams in the room they had, then anew."""
+    for _ in range(NESTED):
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
 
 class Dock(QDockWidget):
@@ -36,6 +44,7 @@ class Dock(QDockWidget):
         """Shown, in front, with the focus in it."""
         self.show()
         self.raise_()
+        settle()
         self.content.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _framed(self, content: QWidget) -> QWidget:

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer
+from PySide6.QtCore import QObject, Qt, QTimer
 
+from app.docks import settle
 from widgets.panel import Panel
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 
 PERIOD_MS = 33
 OWNER = "panels"
-NESTED = 6  # what is laid out anew asks what is around it to be, and so on
 NOTHING: tuple[frozenset[str], tuple[str, ...]] = (frozenset(), ())
 
 
@@ -70,8 +70,7 @@ class Tick(QObject):
         self._finish_futures()
         for call in self._each:
             call()
-        for _ in range(NESTED):  # laid out before it is painted; Qt would paint curves in the room they had, then anew
-            QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
+        settle()
 
     def _refresh(self, controller: Controller) -> None:
         shown = [panel for panel in self._panels if panel.in_sight]
