@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QSize, QTimer, Signal
 from PySide6.QtWidgets import QDockWidget
 
+from app.background import in_background
 from app.connection import Connection
 from app.session import Session
 from app.settings import Settings
@@ -67,7 +68,7 @@ class Scope(QObject):
         self._settling.timeout.connect(self.remember)
         self.job: CaptureJob | None = None
         self.roll: Roll | None = None
-        self.note: Callable[[str, dict[str, Any]], None] = lambda kind, what: None  # to the recorder
+        self.note: Callable[[str, bytes], None] = lambda kind, what: None  # to the recorder
         self._watched: Controller | None = None
         self._drawn_at = 0.0
         self._read, self._placed = 0, False
@@ -129,7 +130,7 @@ class Scope(QObject):
         if capture is not None:
             name = self._keep(capture)
             self._body.add(capture)
-            self.note("capture", _told(capture))
+            self.note("capture", self._packed(name, capture))
             words = (
                 f"{capture.count} values a channel" + ("" if capture.complete else ", a part") + f"; kept as {name}."
             ) + (f" {capture.note}" if capture.note else "")
@@ -219,6 +220,28 @@ class Scope(QObject):
             return f"no file ({(reason.strerror or str(reason)).lower()})"
         return path.name
 
+    def _packed(self, name: str, capture: Capture) -> bytes:
+        """The file that was just kept, or what would have been in it."""
+        from device.capture_file import packed
+
+        try:
+            return (self._folder / name).read_bytes()
+        except OSError:
+            return packed(capture)
+
+    def show_recorded(self, data: bytes) -> None:
+        """A capture out of a recording."""
+        from device.capture_file import unpacked
+
+        self._panel.making.finish()
+        try:
+            capture = unpacked(data)
+        except FileUnreadable as reason:
+            self._body.show_result(f"The recorded capture cannot be shown: {reason}.", good=False)
+            return
+        self._body.add(capture, f"Recorded {capture.when[11:]}")
+        self._body.show_result(f"Of the recording: {capture.count} values a channel, captured {capture.when}.")
+
     def _save(self, capture: Capture) -> None:
         if capture.moments is not None and not capture.when:
             capture = self._told_of(capture)
@@ -228,7 +251,6 @@ class Scope(QObject):
 
     def save(self, capture: Capture, path: Path) -> None:
         """In a thread of its own: an hour of live values is a large text."""
-        from app.tuner_model import in_background
         from device.capture_file import save
 
         self._body.show_result(f"{path.name} is being written.")
@@ -259,15 +281,3 @@ class Scope(QObject):
             return
         self._body.add(capture, path.name)
         self._body.show_result(f"{path.name}: {capture.count} values a channel.")
-
-
-def _told(capture: Capture) -> dict[str, Any]:
-    """What the recorder keeps of a capture."""
-    return {
-        "names": [channel.label for channel in capture.channels],
-        "interval_s": capture.interval_s,
-        "trigger": capture.trigger,
-        "trigger_text": capture.trigger_text,
-        "complete": capture.complete,
-        "values": capture.values,
-    }

@@ -6,11 +6,13 @@ import dataclasses as dc
 import math
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QObject
 
+from app.background import in_background
 from app.connection import Connection
 from app.run import Ask
 from app.session import Session
@@ -24,10 +26,11 @@ from codegen.disk import FileUnreadable
 from codegen.document import Document
 from codegen.files import save as save_program
 from codegen.generate import generate
+from codegen.numbers import plain
 from codegen.setup import Setup
-from codegen.teach import Row, Table
+from codegen.teach import Row, Table, exact
 from codegen.teach_drive import Driving, pace_of, tolerance_counts
-from codegen.teach_path import Seen, rows_of, thinned
+from codegen.teach_path import Seen, fitting
 from codegen.teach_steps import drawn, module
 from widgets.parts import files as choose
 from widgets.plane.panel import PlanePanel
@@ -257,11 +260,32 @@ class Teach(QObject):
         if len({each[1:] for each in seen}) < 2:
             self._panel.show_result("Nothing was recorded: the axes did not move.", good=False)
             return
-        way = thinned(seen, tolerance_counts(self._panel.driving, self.setup))
-        rows = rows_of(way, self.setup, pace_of(self._panel.driving))
+        self._panel.show_result("The way becomes lines and arcs.")
+        setup, driving, room = self.setup, self._panel.driving, teach.MOST_ROWS - len(self.table)
+
+        def work() -> tuple[tuple[Row, ...], float]:
+            found = fitting(seen, tolerance_counts(driving, setup), setup, pace_of(driving), room)
+            teach.problems(Table(teach.units_of(setup), found[0]), setup)  # known by the time it is asked for
+            return found
+
+        self._tick.when_done(in_background(work), partial(self._thinned, len(seen), setup, driving))
+
+    def _thinned(self, readings: int, setup: Setup, driving: Driving, future: Future[Any]) -> None:
+        """A way as rows; where there would be too many, they are coarser, and that is said."""
+        rows, tolerance = future.result()
+        changed, full = setup.axes != self.setup.axes, len(self.table) + len(rows) > teach.MOST_ROWS
+        if changed or full:
+            why = "the setup was changed meanwhile" if changed else "the table has no room for it"
+            self._panel.show_result(f"The way was not recorded: {why}.", good=False)
+            return
         self.change(teach.inserted(self.table, len(self.table), rows))
         pauses = sum(1 for row in rows if row.pause)
-        self._panel.show_result(f"{len(seen)} readings became {len(rows)} rows with {pauses} pauses.")
+        words = f"{readings} readings became {len(rows)} rows with {pauses} pauses."
+        if tolerance > tolerance_counts(driving, setup):
+            coarser = plain(exact(driving.tolerance) * round(tolerance / tolerance_counts(driving, setup)))
+            unit = teach.units_of(setup)[0]
+            words += f" Within {driving.tolerance} {unit} they would not fit; they are within {coarser} {unit}."
+        self._panel.show_result(words)
 
     def _see(self) -> None:
         assert self._seen is not None

@@ -6,12 +6,13 @@ The mathematics runs in a thread of its own and is imported there, so that neith
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
+from app.background import in_background
 from app.tick import Tick, failure_of
 from app.tuner_memory import Memory
 from widgets.tuner.asked import Asked
@@ -25,17 +26,8 @@ if TYPE_CHECKING:
     from device.tuning.identify import Estimate
     from widgets.tuner.plots import Curve
 
-T = TypeVar("T")
 LONGEST_S = 1.0  # of a predicted step
 UNREACHED = "There are no gains for this target; ask for one that can be reached."
-
-
-def in_background(call: Callable[[], T]) -> Future[T]:
-    """Begins at once; whoever asked is told by the tick."""
-    pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="tuner")
-    future = pool.submit(call)
-    pool.shutdown(wait=False)
-    return future
 
 
 class Modelling(QObject):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
@@ -233,14 +233,24 @@ def counts_of(row: Row, setup: Setup) -> tuple[int, int]:
 
 def cell_problem(column: str, text: str, setup: Setup) -> str:
     """Why a text cannot stand in a column on this machine, as one sentence, or nothing."""
-    text = typed_text(text)
-    if not text:
-        return ""
-    field = fields_of(Row)[column]
-    if isinstance(field, Quantity | Number) and (problem := number_problem(text)):
-        return f"{field.label}: {problem}"
-    axis = {"x": "X", "y": "Y", "pause": ""}.get(column, "XY")
-    return field.problem(text, Context(setup, axis)) or ""
+    return _cells(setup)(column, typed_text(text))
+
+
+@lru_cache(maxsize=4)
+def _cells(setup: Setup) -> Callable[[str, str], str]:
+    """What is wrong with each text on one machine, remembered: after an edit all other cells are what they were."""
+
+    @lru_cache(maxsize=20_000)
+    def judged(column: str, text: str) -> str:
+        if not text:
+            return ""
+        field = fields_of(Row)[column]
+        if isinstance(field, Quantity | Number) and (problem := number_problem(text)):
+            return f"{field.label}: {problem}"
+        axis = {"x": "X", "y": "Y", "pause": ""}.get(column, "XY")
+        return field.problem(text, Context(setup, axis)) or ""
+
+    return judged
 
 
 @lru_cache(maxsize=16)
@@ -249,9 +259,10 @@ def problems(table: Table, setup: Setup) -> tuple[Wrong, ...]:
     if reason := unfit(table, setup):
         return (Wrong(0, "x", reason),)
     found: list[Wrong] = []
+    judged = _cells(setup)
     for number, row in enumerate(table.rows):
         for column in COLUMNS:
-            if problem := cell_problem(column, getattr(row, column), setup):
+            if problem := judged(column, typed_text(getattr(row, column))):
                 found.append(_wrong(number, column, problem))
         found += [_wrong(number, column, text) for column, text in _row_problems(row)]
     if found:

@@ -17,7 +17,7 @@ from typing import NamedTuple
 from codegen.bows import Bow, Point, distance_to_line, through_ends, through_point
 from codegen.numbers import decimal
 from codegen.setup import Setup
-from codegen.teach import ON, Row, place_text
+from codegen.teach import LONGEST_CHAIN, ON, Row, place_text
 
 SHARPEST = 20.0  # degrees a path may turn without a stop
 FEWEST_OF_AN_ARC = 4  # places; three lie on a circle whatever they are
@@ -62,14 +62,30 @@ def thinned(seen: Sequence[Seen], tolerance: float, least_pause_s: float = 0.3) 
     return Way(start, tuple(legs), before)
 
 
+def fitting(
+    seen: Sequence[Seen], tolerance: float, setup: Setup, pace: Row, most: int
+) -> tuple[tuple[Row, ...], float]:
+    """At most so many rows, and the tolerance (counts) that they keep: the given one, or the first double that does."""
+    furthest = max(math.dist(each[1:], seen[0][1:]) for each in seen)
+    while True:
+        rows = rows_of(thinned(seen, tolerance), setup, pace)
+        if len(rows) <= most or tolerance > furthest:
+            return rows, tolerance
+        tolerance *= 2
+
+
 def rows_of(way: Way, setup: Setup, pace: Row) -> tuple[Row, ...]:
-    """The way (in counts) as rows with the speed and ramps of another row; sharp corners and pauses stop it."""
+    """The way (in counts) as rows with the speed and ramps of another row; sharp corners and pauses stop it.
+
+    So does what a controller can hold of a path without a stop.
+    """
     bare = Row(speed=pace.speed, acceleration=pace.acceleration, deceleration=pace.deceleration)
     rows = [_row(bare, way.start, setup, way.pause_s)]
-    turns = _corners(way)
+    turns, chain = _corners(way), 0
     for number, leg in enumerate(way.legs):
         row = _row(bare, leg.end, setup, leg.pause_s)
-        goes_on = not leg.stops and turns[number] <= SHARPEST
+        goes_on = not leg.stops and turns[number] <= SHARPEST and chain < LONGEST_CHAIN - 1
+        chain = chain + 1 if goes_on else 0
         sweep = decimal(Fraction(leg.sweep), 4) if leg.sweep else ""
         rows.append(dc.replace(row, sweep=sweep, through=ON if goes_on else ""))
     return tuple(rows)

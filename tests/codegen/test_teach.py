@@ -17,7 +17,7 @@ from codegen.models import model
 from codegen.setup import Setup, Unit
 from codegen.teach import Row, Table, deleted, inserted, problems, with_cell, with_values
 from codegen.teach_file import table_of, text_of
-from codegen.teach_path import Seen, Way, distance, rows_of, thinned
+from codegen.teach_path import Leg, Seen, Way, distance, fitting, rows_of, thinned
 from codegen.teach_steps import drawn, module
 from device.simulator.simulation import Simulation
 
@@ -283,3 +283,26 @@ def test_a_line_a_pause_and_a_half_circle_become_just_that() -> None:
     assert [row.pause for row in rows] == ["", "1000", *[""] * (len(rows) - 2)]
     assert problems(table(*rows), TABLE) == ()
     assert at(run(table(*rows))) == (seen[-1].x, seen[-1].y)
+
+
+def test_a_long_shaking_way_is_made_coarser_until_a_table_holds_it() -> None:
+    """3000 places on a zigzag of 20 counts: within 5 counts each is a corner; within a double of it, few lines."""
+    seen = [Seen(n * 0.05, n * 10, 20 * (n % 2)) for n in range(3000)]
+    assert len(rows_of(thinned(seen, 5.0), TABLE, PACE)) > 900
+    rows, tolerance = fitting(seen, 5.0, TABLE, PACE, 900)
+    assert len(rows) <= 900 and tolerance in (10.0, 20.0, 40.0)
+    assert len(rows_of(thinned(seen, tolerance / 2), TABLE, PACE)) > 900  # the first that does
+    assert (float(rows[-1].x), float(rows[-1].y)) == (29.99, 0.02)
+    assert fitting(seen[:3], 5.0, TABLE, PACE, 900)[1] == 5.0
+
+
+def test_a_path_without_a_stop_is_no_longer_than_a_controller_holds() -> None:
+    """511 segments (commands.md, coordinated motion); a wide circle in 1200 short lines never turns by 20 degrees."""
+    way = Way(
+        (0, 0),
+        tuple(Leg((round(9e4 * math.sin(n / 200)), round(9e4 * (1 - math.cos(n / 200))))) for n in range(1, 1201)),
+    )
+    rows = rows_of(way, dc.replace(TABLE, axes=(dc.replace(AXIS, reverse_limit="", forward_limit=""),) * 4), PACE)
+    stops = [number for number, row in enumerate(rows) if not row.through]
+    assert stops[0] == 0 and len(stops) == 4
+    assert max(after - before for before, after in pairwise(stops)) <= 511

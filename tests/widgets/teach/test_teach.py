@@ -129,6 +129,7 @@ def a_whole_way_with_a_pause(bench: Bench) -> None:
     bench.push(0, 0)
     bench.still()
     bench.click(bench.parts.way)
+    bench.stage.until(lambda: "readings became" in bench.panel.words())
     rows = bench.rows[1:]
     assert 3 <= len(rows) <= 6, rows
     assert any(float(row.get("pause", 0)) > 500 for row in rows[1:-1]), rows

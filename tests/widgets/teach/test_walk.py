@@ -223,6 +223,7 @@ def test_a_round_way_by_hand_becomes_arcs_that_are_played_back_near_it(bench: Be
         driven.append((bench.places[0] / 1000, bench.places[1] / 1000))
     bench.still()
     bench.click(bench.parts.way)
+    bench.stage.until(lambda: "readings became" in bench.panel.words())
     bench.click(bench.parts.done)
     rows = bench.rows
     assert any("sweep" in row for row in rows) and len(rows) <= 8, rows
