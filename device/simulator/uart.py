@@ -65,6 +65,8 @@ class Uart:
 
     def transmit(self) -> bytes:
         """The characters that have left the port since the last call."""
+        if not self.sent:
+            return b""
         data = bytes(self.sent)
         self.sent.clear()
         if self._wrong_speed:

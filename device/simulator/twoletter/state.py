@@ -185,7 +185,10 @@ class State:
 
     def waiting(self) -> list[Strand]:
         """Those that wait for something."""
-        found: list[Strand] = [thread for thread in self.threads if thread.wait is not None]
+        found: list[Strand] = []
+        for thread in self.threads:  # no comprehension: this runs for every character
+            if thread.wait is not None:
+                found.append(thread)
         for port in self.ports:
             if port.wait is not None:
                 found.append(port)

@@ -33,10 +33,11 @@ class Interpreter:
             self._settle()
             if until_idle and (not unit.running() or unit.records.unhandled > known):
                 return
-            due = self._next_event()
+            waiting = unit.state.waiting()
+            due = self._next_event(waiting)
             command_at = unit.state.command_at
             target = min(due, end if command_at < 0 else min(command_at, end))
-            if self._watching():
+            if self._watching(waiting):
                 if self._sync(target):
                     continue
             else:
@@ -59,7 +60,7 @@ class Interpreter:
         clock.now = target
         return False
 
-    def _next_event(self) -> int:
+    def _next_event(self, waiting: list[Strand]) -> int:
         """The next tick at which something other than a command is due."""
         unit = self.unit
         state = unit.state
@@ -69,7 +70,7 @@ class Interpreter:
         for uart in unit.uarts:
             if uart.incoming_end is not None:
                 due = min(due, uart.due_in())
-        for strand in state.waiting():
+        for strand in waiting:
             wait = strand.wait
             assert wait is not None
             if wait.wake < due:
@@ -81,7 +82,8 @@ class Interpreter:
     def rests(self) -> bool:
         """Nothing is due but samples, and none of them can call anything."""
         state = self.unit.state
-        return state.command_at < 0 and not state.waiting() and self._next_event() == FOREVER and not self._ready()
+        waiting = state.waiting()
+        return state.command_at < 0 and not waiting and self._next_event(waiting) == FOREVER and not self._ready()
 
     def _settle(self) -> None:
         """Brings ports and waits up to now, and gives the interpreter its next command."""
@@ -95,7 +97,8 @@ class Interpreter:
         while state.recording.interval and unit.clock.tick_of(state.recording.sample) <= now:
             recording.take(unit)
         for uart, port in zip(unit.uarts, state.ports, strict=True):
-            uart.run(now)
+            if uart.incoming_end is not None or uart.outgoing_end is not None:  # most of the time the lines are quiet
+                uart.run(now)
             if uart.buffer or uart.overruns:
                 wire.take_characters(unit, port)
         if state.comint_due:
@@ -114,7 +117,10 @@ class Interpreter:
         state = self.unit.state
         if state.reset_at >= 0:
             return []
-        ready: list[Strand] = [thread for thread in state.threads if thread.running and thread.wait is None]
+        ready: list[Strand] = []
+        for thread in state.threads:  # no comprehension: this runs for every character
+            if thread.running and thread.wait is None:
+                ready.append(thread)
         for port in state.ports:
             if port.pending is not None and port.wait is None:
                 ready.append(port)
@@ -133,7 +139,7 @@ class Interpreter:
         unit.changed, unit.stalled = False, 0  # an echo that found no room is nobody's command
         plain = not any(isinstance(strand, Port) for strand in ready) and not self._traces()
         if plain:
-            self._burst(ready, limit, watched=self._watching())
+            self._burst(ready, limit, watched=self._watching(state.waiting()))
         else:
             self._one(self._in_turn(ready))
         if self._ready():
@@ -332,9 +338,9 @@ class Interpreter:
         else:
             self._next_of_line(port)
 
-    def _watching(self) -> bool:
+    def _watching(self, waiting: list[Strand]) -> bool:
         """Whether the motion can end a wait or call a routine, so that it must keep up with the commands."""
-        for strand in self.unit.state.waiting():
+        for strand in waiting:
             if strand.wait is not None and strand.wait.watches:
                 return True
         return routines.watched(self.unit)
