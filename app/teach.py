@@ -111,7 +111,7 @@ class Teach(QObject):
         if not self.table.rows and self.table.units != teach.units_of(setup):
             self.table = self._saved = Table(teach.units_of(setup))
         wrong = teach.problems(self.table, setup) if self.table.rows else ()
-        self._panel.show_table(self.table, wrong)
+        self._panel.show_table(self.table, wrong, bool(self._undone))
         self._plane.show_path(PATH, () if wrong else drawn(self.table, setup))
 
     def _set_driving(self, driving: Driving) -> None:

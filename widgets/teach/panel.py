@@ -79,6 +79,7 @@ class TeachPanel(Panel):
         self.driving = Driving()
         self.table = Table()
         self.wrong: tuple[Wrong, ...] = ()
+        self.undo = False  # whether there is a change to take back
         self.enabled = False
         self._pad, self._pad_words = (0.0, 0.0), ""
         self.volts = (math.nan, math.nan)
@@ -169,9 +170,9 @@ class TeachPanel(Panel):
         if why := ENDS.get(notice.kind):
             self.ended(f"Driving ended: {why}.")
 
-    def show_table(self, table: Table, wrong: tuple[Wrong, ...]) -> None:
-        """The rows as they are now, and what is wrong with them."""
-        self.table, self.wrong = table, wrong
+    def show_table(self, table: Table, wrong: tuple[Wrong, ...], undo: bool = False) -> None:
+        """The rows as they are now, what is wrong with them, and whether there is a change to take back."""
+        self.table, self.wrong, self.undo = table, wrong, undo
         self._show()
 
     def show_driving(self, driving: Driving) -> None:

@@ -43,6 +43,7 @@ SWITCHED_NOW = "I/O control is on: the outputs are switched now as well."
 ONLY_KEPT = "I/O control is off: the row is added, nothing is switched now."
 DRIVING = "● Driving: press to end"
 PLAYS = "The table is being played back."
+EMPTY = "The table is empty."
 EDITS = (
     ("insert", "Insert", "An empty row above the selected one (Ins)"),
     ("delete", "Delete", "Takes the selected rows out (Ctrl+-)"),
@@ -131,12 +132,17 @@ class Parts(QWidget):
             self._draw_now(row)
 
     def _show_playable(self) -> None:
-        wrong = self._panel.wrong
-        reason = self._usable or self._panel.problem or ("The table is empty." if not len(self._panel.table) else "")
+        wrong, empty = self._panel.wrong, "" if len(self._panel.table) else EMPTY
+        reason = self._usable or self._panel.problem or empty
         enable(self.play, reason or (wrong[0].sentence if wrong else "") or (PLAYS if self._playing else ""))
         enable(self.halt, "" if self._playing else "Nothing is played back.")
-        enable(self.files["module"], "The table is empty." if not len(self._panel.table) else "")
-        enable(self.files["save"], "The table is empty." if not len(self._panel.table) else "")
+        for button in (
+            self.edits["delete"],
+            self.edits["pace"],
+            *(self.files[name] for name in ("new", "save", "module")),
+        ):
+            enable(button, empty)
+        enable(self.edits["undo"], "" if self._panel.undo else "There is no change to take back.")
 
     def _enable_next(self, holds: bool) -> None:
         enable(self.next, "" if holds else "For play-back step by step.")
@@ -155,7 +161,7 @@ class Parts(QWidget):
         pen = {"color": look().colour("axis_w"), "width": 2}
         self._line.setData([x for x, _ in places], [y for _, y in places], pen=pen)
         self._dots.setData([x for x, _ in ends], [y for _, y in ends], symbolBrush=look().colour("axis_w"), pen=None)
-        self.plot.name_sides(f"X  {table.units[0]}", f"Y  {table.units[1]}")
+        self.plot.name_sides(f"X, {table.units[0]}", f"Y, {table.units[1]}")
         self._draw_now(self.model.playing)
 
     def _draw_now(self, row: int) -> None:

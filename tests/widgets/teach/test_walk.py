@@ -145,6 +145,9 @@ def test_a_table_typed_by_hand_goes_through_files_into_a_program(bench: Bench, t
     """Every form of value by keys; saved, opened, saved as a module and imported by their menus and windows."""
     typed = ({"x": "1.5", "y": "-2", **PACE}, {"wait": "8"}, {"wait": "-8"}, {"output": "1"}, {"output": "-1"},
         {"output": "0x00"}, {"output": "0xFF"}, {"x": "3", "y": "4", **PACE})  # fmt: skip
+    for button in [*bench.parts.edits.values(), *bench.parts.files.values()]:
+        does = button in (bench.parts.edits["insert"], bench.parts.files["open"])
+        assert button.isEnabled() == does and (does or button.toolTip().endswith("."))  # why not
     for _ in typed:
         QTest.mouseClick(bench.parts.edits["insert"], LEFT)
     for number, row in enumerate(typed):
