@@ -29,6 +29,7 @@ from widgets.parts.files import PICTURES, ask_save
 from widgets.parts.look import look
 from widgets.parts.question import Question
 
+TOP = 8  # px above the highest number at the side, half of which stands there
 STEP = 0.1  # of the width, for an arrow key
 ZOOM = 0.8  # for the plus key
 GRID = 0.5  # how much of the line colour a grid line has; the rest is the ground's
@@ -100,6 +101,7 @@ class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
         self.setAccessibleName(name)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.hideButtons()
+        self.getPlotItem().layout.setContentsMargins(1, TOP, 1, 1)
         self.setAspectLocked(equal)
         self.grid = Grid(self)
         self.addItem(self.grid, ignoreBounds=True)

@@ -222,7 +222,7 @@ class PlanePanel(Panel):
         if self.plot is None or self._setup is None or not self.shown:
             return
         across, upward = (self._setup.axis(letter) for letter in self.shown)
-        self.plot.name_sides(f"{self.shown[0]}  {unit_of(across)}", f"{self.shown[1]}  {unit_of(upward)}")
+        self.plot.name_sides(f"{self.shown[0]}, {unit_of(across)}", f"{self.shown[1]}, {unit_of(upward)}")
         self.plot.setAspectLocked(unit_of(across) == unit_of(upward))
         box = self.plot.getPlotItem().getViewBox()
         box.invertX(across.mirrored)

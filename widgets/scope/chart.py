@@ -240,7 +240,7 @@ class Chart(QWidget):
         self._named[group] = key
         units = list(dict.fromkeys(line.unit for line in lines if line.unit))
         last = strip is list(self.strips.values())[-1]
-        words = f"{group} ({units[0]})" if units and group and not group.endswith(")") else group or ", ".join(units)
+        words = f"{group}, {units[0]}" if units and group and ", " not in group else group or ", ".join(units)
         below = bottom if last else ""
         if (strip.getAxis("left").labelText, strip.getAxis("bottom").labelText) != (words, below):
             strip.name_sides(below, words)

@@ -57,7 +57,7 @@ class Views:
             ]
         lines = _by_unit(lines)
         triggered = capture.moments is None and capture.trigger_text != "at once"
-        bottom = "Time from the trigger (s)" if triggered else "Time (s)"
+        bottom = "Time from the trigger, s" if triggered else "Time, s"
         if capture.moments is not None:
             bottom = SINCE
         mark = (0.0, capture.early_s) if triggered else None
@@ -77,7 +77,7 @@ class Views:
                 pair = self._pair(other, sides)
                 if (pair[0].unit, pair[1].unit) == (across.unit, upward.unit):
                     lines.append(self._over(*pair, faded=True))
-        return Picture(lines, f"{across.label} ({across.unit})", _read_off(own), equal=_comparable(across, upward))
+        return Picture(lines, f"{across.label}, {across.unit}", _read_off(own), equal=_comparable(across, upward))
 
     def spectra(self, capture: Capture, stretch: tuple[float, float] | None, window: Window) -> Picture:
         """Of the stretch between the cursors, or of everything."""
@@ -130,7 +130,7 @@ class Views:
         first, second = across.curve(x), upward.curve(y)
         own = [self._line(each, times, each.values, ()) for each in (first, second)]
         line = self._over(first, second, first.values, second.values)
-        bottom = f"{first.label} ({first.unit})"
+        bottom = f"{first.label}, {first.unit}"
         return Picture([line], bottom, _read_off(own), equal=_comparable(first, second))
 
     def live_spectra(self, rolled: Sequence[Rolled], low: float, high: float, window: Window) -> Picture:
@@ -192,11 +192,11 @@ class Views:
             lines.append(line)
             columns.append(Column(curve.label, curve.unit, line.colour, line.x, line.y, peak))
         how = "" if interval_s is not None else ", made even"
-        words = f"Frequency (Hz) · window: {window} · {count} values{how}"
+        words = f"Frequency, Hz · window: {window} · {count} values{how}"
         return Picture(_by_unit(lines), words, lambda low, high: columns, step)
 
 
-SINCE = "Time since Live began (s)"
+SINCE = "Time since Live began, s"
 
 
 def _read_off(lines: Sequence[Line]) -> Callable[[float, float], list[Column]]:
@@ -210,7 +210,7 @@ def _by_unit(lines: list[Line]) -> list[Line]:
     for line in lines:
         first.setdefault(line.group, line.unit)
     return [
-        line if line.unit == first[line.group] else dc.replace(line, group=f"{line.group} ({line.unit})")
+        line if line.unit == first[line.group] else dc.replace(line, group=f"{line.group}, {line.unit}")
         for line in lines
     ]
 

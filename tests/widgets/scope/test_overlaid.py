@@ -47,21 +47,21 @@ def test_a_capture_of_a_machine_in_inches_gets_a_scale_of_its_own(qapp: QApplica
     body.add(other)
     mine, _ = given(body)
     tick(body, 1)
-    assert title(body, "Position") == "Position (mm)" and title(body, "Position (in)") == "Position (in)"
+    assert title(body, "Position") == "Position, mm" and title(body, "Position, in") == "Position, in"
     drawn = {name: [item.getData()[1] for item in strip.items] for name, strip in body.chart.strips.items()}
     assert [len(each) for each in drawn.values()] == [2, 2]
     np.testing.assert_allclose(drawn["Position"][0], mine.of(X) / 500)
-    np.testing.assert_allclose(drawn["Position (in)"][0], 0.25)
+    np.testing.assert_allclose(drawn["Position, in"][0], 0.25)
     choose(body.bar.views, str(View.PLANE))
     strip = next(iter(body.chart.strips.values()))
-    assert strip.getAxis("bottom").labelText == "Position X (mm)" and len(strip.items) == 1  # no inches in there
+    assert strip.getAxis("bottom").labelText == "Position X, mm" and len(strip.items) == 1  # no inches in there
 
 
 def test_axes_of_different_units_have_strips_of_their_own(qapp: QApplication, body: Body) -> None:
     axes = (Axis(unit=Unit.MM, counts_per_unit="500"), Axis(unit=Unit.DEGREE, counts_per_unit="10"))
     setup = Setup(model="ssc2", axes=(*axes, *axes))
     body.add(Capture((X, Y), np.full((2, 50), 100.0), 2, 1000.0, setup=setup))
-    assert [title(body, name) for name in body.chart.strips] == ["Position (mm)", "Position (deg)"]
+    assert [title(body, name) for name in body.chart.strips] == ["Position, mm", "Position, deg"]
     assert [body.readings.reading("Mean", name) for name in ("Position X", "Position Y")] == ["0.2 mm", "10 deg"]
 
 

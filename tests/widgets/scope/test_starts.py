@@ -64,6 +64,6 @@ def test_an_input_and_a_level_in_millimetres_begin_a_capture(stage: Stage) -> No
     off = lines["Following error X"]
     assert off.unit == "mm" and off.group == "Position error"
     np.testing.assert_allclose(off.y, (found.of(Channel("commanded", "X")) - place) / SCALE, atol=1e-12)
-    assert body.chart.strips["Position"].getAxis("left").labelText == "Position (mm)"
+    assert body.chart.strips["Position"].getAxis("left").labelText == "Position, mm"
     assert float(lines["Position X"].x[found.trigger]) == 0.0
     assert np.diff(lines["Position X"].x) == pytest.approx(4 * 2000 / 1_024_000)
