@@ -168,8 +168,14 @@ class AtMachine:
         )  # fmt: skip
         self.scope.said.connect(studio.desk.say)
         self.scope.note = studio.recorder.note
+        self.recorded.capture_wanted.connect(self._show_capture)
         self._add(self.curves)
         self._dock(self.curves, BOTTOM)
+
+    def _show_capture(self, data: bytes) -> None:
+        """Out of a recording."""
+        self._studio.late.bring_scope()
+        self.scope.show_recorded(data)
 
     def _values(self) -> None:
         from app.variables import Variables

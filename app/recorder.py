@@ -16,9 +16,10 @@ from PySide6.QtCore import QObject, Signal
 from app.connection import Connection, Opened
 from app.deeds import Deeds
 from app.tick import Tick
+from codegen.disk import FileUnreadable
 from device.api import Controller, Kind
 from device.recorder import MOST_BYTES, SUFFIX, Recorder
-from device.recorder_play import CONTROLLER, DID, LISTING, NOTICE, Player, facts_of, replayed
+from device.recorder_play import CAPTURE, CONTROLLER, DID, LISTING, NOTICE, TUNING, Player, facts_of, replayed
 from device.recorder_read import DAMAGE, Recording, RecordingUnreadable, joined, open_recording
 from widgets.panel import Panel
 from widgets.parts.files import ask_open, ask_save
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 FILES = f"Recordings and bundles (*{SUFFIX} *.zip)"
 SAVED = f"Recordings (*{SUFFIX})"
 LOOK_TICKS = 60  # between two looks at how much is kept, about two seconds
-WHO = {DID: "You", NOTICE: "Machine"}
+WHO = {DID: "You", NOTICE: "Machine", CAPTURE: "Scope", TUNING: "Tuner"}
 OWN = "what was recorded here"
 
 
@@ -52,6 +53,7 @@ class Recorded(QObject):
     """Owns the replay: `player` is the hand on it, None while nothing is played."""
 
     said = Signal(str)
+    capture_wanted = Signal(bytes)  # one of the recording is to be shown
 
     def __init__(self, studio: Studio, recorder: Recorder, panel: RecorderPanel, folder: Callable[[], Path]) -> None:
         super().__init__(studio)
@@ -160,6 +162,12 @@ class Recorded(QObject):
         self.player.set_speed(before.speed)
         self.player.play(before.playing or before.place >= before.length)
 
+    def _show_capture(self, place: float) -> None:
+        notes = self.recording.notes if self.recording is not None else ()
+        for note in notes:
+            if note.kind == CAPTURE and note.place == place and isinstance(note.payload, bytes):
+                self.capture_wanted.emit(note.payload)
+
     def _opened(self, path: Path) -> Callable[[], None]:
         try:
             recording = open_recording(path)
@@ -167,13 +175,15 @@ class Recorded(QObject):
         except RecordingUnreadable as reason:
             words = str(reason)
             return lambda: self._refuse(words)
-        return lambda: self._begin(recording, program)
+        happenings = _happenings(recording)
+        return lambda: self._begin(recording, happenings, program)
 
     def _opened_own(self) -> Callable[[], None]:
         recording = Recording(self.kept(), OWN)
         if not recording.length:
             return lambda: self._refuse("Nothing was recorded yet: connect a controller or the simulator first.")
-        return lambda: self._begin(recording, "")
+        happenings = _happenings(recording)
+        return lambda: self._begin(recording, happenings, "")
 
     def _saved(self, path: Path) -> Callable[[], None]:
         try:
@@ -199,16 +209,11 @@ class Recorded(QObject):
         if self.player is None:
             self._panel.show_recorded(self._kept()[0], words)
 
-    def _begin(self, recording: Recording, program: str) -> None:
-        self._careful("Replay a recording?", lambda: self._show_replay(recording, program))
+    def _begin(self, recording: Recording, happenings: list[Happening], program: str) -> None:
+        self._careful("Replay a recording?", lambda: self._show_replay(recording, happenings, program))
 
-    def _show_replay(self, recording: Recording, program: str) -> None:
+    def _show_replay(self, recording: Recording, happenings: list[Happening], program: str) -> None:
         self._play(recording, 0.0)
-        happenings = [
-            Happening(note.place, note.at, WHO[note.kind], _text(note.payload))
-            for note in recording.notes
-            if note.kind in WHO
-        ]
         self._panel.show_recording(recording.name, recording.length, happenings, recording.problem)
         self.said.emit(recording.problem or f"Replay of {recording.name}: nothing can be sent.")
         if program:
@@ -243,6 +248,7 @@ class Recorded(QObject):
         panel.play_wanted.connect(self._pause)
         panel.speed_wanted.connect(lambda speed: self.player is not None and self.player.set_speed(speed))
         panel.place_wanted.connect(self.seek)
+        panel.capture_wanted.connect(self._show_capture)
         self._connection.changed.connect(self._exchanged)
         tick.each(self.once)
 
@@ -256,8 +262,33 @@ class Recorded(QObject):
             self.player.play(on)
 
 
+def _happenings(recording: Recording) -> list[Happening]:
+    """What the list tells (beside the window's thread: captures are looked into)."""
+    found = []
+    for note in recording.notes:
+        capture = note.kind == CAPTURE and isinstance(note.payload, bytes)
+        text = _capture_words(note.payload) if capture else _text(note.payload)
+        if note.kind in WHO and text:
+            found.append(Happening(note.place, note.at, WHO[note.kind], text, capture))
+    return found
+
+
+def _capture_words(data: Any) -> str:
+    from device.capture_file import unpacked
+
+    try:
+        capture = unpacked(data)
+    except FileUnreadable as reason:
+        return f"A capture that cannot be read: {reason}."
+    labels = ", ".join(channel.label for channel in capture.channels)
+    return f"Captured {labels}: {capture.count} values a channel, {capture.trigger_text}."
+
+
 def _text(payload: Any) -> str:
-    return str(payload.get("text", "")) if isinstance(payload, dict) else str(payload)
+    """What a note says; of a tuning run its result."""
+    if not isinstance(payload, dict):
+        return str(payload)
+    return str(payload.get("text") or payload.get("words") or "")
 
 
 def _program_in(path: Path) -> str:

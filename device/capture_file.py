@@ -33,11 +33,8 @@ def save(path: str | Path, capture: Capture) -> None:
     """Writes a file of the kind its name ends with; a crash leaves an old one whole."""
     path = Path(path)
     if path.suffix.lower() == NUMPY:
-        whole = io.BytesIO()
-        about = np.array(json.dumps(_about(capture), ensure_ascii=False))
-        np.savez_compressed(whole, about=about, times=capture.times, values=capture.values)
         written = path.with_name(path.name + ".new")
-        written.write_bytes(whole.getvalue())
+        written.write_bytes(packed(capture))
         written.replace(path)
     else:
         save_text(path, dumps(capture))
@@ -51,7 +48,7 @@ def load(path: str | Path) -> Capture:
     except OSError as reason:
         raise FileUnreadable(f"{path.name} cannot be opened: {(reason.strerror or str(reason)).lower()}") from None
     try:
-        return _from_numpy(data) if data[:2] == b"PK" else loads(data.decode("utf-8-sig"))
+        return unpacked(data) if data[:2] == b"PK" else loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
         raise FileUnreadable(f"{path.name} is not a capture (it is not text)") from None
     except FileUnreadable as reason:
@@ -101,7 +98,16 @@ def loads(text: str) -> Capture:
     return _capture(about, channels, columns[1:], columns[0])
 
 
-def _from_numpy(data: bytes) -> Capture:
+def packed(capture: Capture) -> bytes:
+    """What a NumPy file of it holds."""
+    whole = io.BytesIO()
+    about = np.array(json.dumps(_about(capture), ensure_ascii=False))
+    np.savez_compressed(whole, about=about, times=capture.times, values=capture.values)
+    return whole.getvalue()
+
+
+def unpacked(data: bytes) -> Capture:
+    """A capture from what its NumPy file holds; FileUnreadable says what is wrong in it."""
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as file:
             about, values = _about_of(str(file["about"])), np.asarray(file["values"])

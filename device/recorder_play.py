@@ -32,6 +32,7 @@ FRAMED = re.compile(r"MG\{\^30\},\"([a-z0-9]{2})\"(.*),\{\^31\}$")
 ENTERS = re.compile(r"MG\{\^30\},\"([a-z0-9]{2})\",\{\^31\};(DL)$")  # a download proves its DL
 ITEM = re.compile(r",([^{}]+)\{F(\d+)\.(\d+)\}")
 CONTROLLER, LISTING, NOTICE, DID = "controller", "listing", "notice", "did"  # kinds of notes
+CAPTURE, TUNING = "capture", "tuning run"
 
 
 class Player:

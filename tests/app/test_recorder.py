@@ -7,6 +7,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -14,6 +15,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QFileDialog, QLineE
 
 from app.deeds import LISTEN_TICKS
 from device.api import Kind, State, StopState
+from device.capture import Channel, Plan
 from device.recorder_play import DID
 from device.recorder_read import Recording, joined
 from tests.app.test_tuner import tuner
@@ -264,6 +266,38 @@ def test_a_tuning_run_stands_in_the_recording(stage: Stage) -> None:
     notes = Recording(joined(stage.studio.recorder.files())).notes
     (run,) = [note.payload for note in notes if note.kind == "tuning run"]
     assert isinstance(run, dict) and run["gains"]["kp"] == 7.5 and run["actual"] == [0, 60, 99]
+
+
+def test_a_capture_of_the_recording_is_shown_in_the_scope(stage: Stage) -> None:
+    """The very values, in another studio too: they are in the recording themselves."""
+    stage.connect("simulator", "ssc2")
+    stage.type("SH X")
+    scope, panel = stage.studio.at_machine.scope, panel_of(stage)
+    stage.studio.desk.bring("Scope")
+    stage.go()
+    scope.capture(Plan((Channel("position", "X"), Channel("inputs")), 1, 60, go="PR 500;BG X"))
+    stage.until(lambda: scope.job is None)
+    body = stage.studio.at_machine.curves.body
+    assert body is not None and body.kept.current is not None
+    captured = body.kept.current
+    replay(stage)
+    words = "Scope | Captured Position X, Inputs: 60 values a channel, at once."
+    assert words in panel.words()
+    row = next(n for n, each in enumerate(panel.rows) if each.capture)
+    panel.table.setCurrentCell(row, 0)
+    panel.table.setFocus()
+    QTest.keyClick(panel.table, Qt.Key.Key_Return)
+    wait(stage, lambda: body.kept.list.count() == 2)
+    shown = body.kept.current
+    assert (
+        shown is not None
+        and shown is not captured
+        and shown.channels == captured.channels
+        and shown.when == captured.when
+        and np.ptp(shown.values[0]) > 50
+    )
+    np.testing.assert_array_equal(shown.values, captured.values)
+    assert stage.controller.kind is Kind.REPLAY
 
 
 def test_a_recorder_that_can_not_write_is_said_wherever_one_looks(stage: Stage) -> None:

@@ -46,6 +46,7 @@ class Happening:
     at: float
     who: str
     text: str
+    capture: bool = False  # that can be looked at
 
 
 def clock_words(seconds: float) -> str:
@@ -65,6 +66,7 @@ class RecorderPanel(Panel):
     play_wanted = Signal(bool)
     speed_wanted = Signal(float)
     place_wanted = Signal(float)  # seconds from the beginning
+    capture_wanted = Signal(float)  # the one that was made there
 
     def __init__(
         self, parent: QWidget | None = None, local: Callable[[float], time.struct_time] = time.localtime
@@ -91,7 +93,7 @@ class RecorderPanel(Panel):
         self.speed.activated.connect(lambda _: self.speed_wanted.emit(self.speed.currentData()))
         self.slider.valueChanged.connect(lambda value: self.place_wanted.emit(value / STEP))
         self.search.textChanged.connect(lambda _: self._fill())
-        self.table.cellActivated.connect(lambda row, _: self.place_wanted.emit(self.rows[row].place))
+        self.table.cellActivated.connect(lambda row, _: self._go_to(self.rows[row]))
 
     # -------------------------------------------------------------- being told
 
@@ -164,6 +166,12 @@ class RecorderPanel(Panel):
                 item.setToolTip(text)
                 self.table.setItem(number, column, item)
 
+    def _go_to(self, row: Happening) -> None:
+        """A row that was chosen: from there on, and what was captured there."""
+        self.place_wanted.emit(row.place)
+        if row.capture:
+            self.capture_wanted.emit(row.place)
+
     def _follow(self, place: float) -> None:
         """The row of what happened last is the selected one, unless somebody looks through the list."""
         row = bisect_right(self.rows, place, key=lambda each: each.place) - 1
@@ -215,7 +223,7 @@ class RecorderPanel(Panel):
         table = self.table
         table.setHorizontalHeaderLabels(list(COLUMNS))
         table.setAccessibleName("What happened in the recording")
-        table.setToolTip("Double click or Enter: play from there")
+        table.setToolTip("Double click or Enter: play from there; a capture is shown in the Scope")
         table.verticalHeader().hide()
         table.setShowGrid(False)
         table.setTabKeyNavigation(False)
