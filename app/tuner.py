@@ -30,6 +30,7 @@ from widgets.tuner.asked import UNSURE, VELOCITY, Asked, Judged
 from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MODEL, TunerPanel
 
 if TYPE_CHECKING:
+    from codegen.setup import Setup
     from device.download import Job
     from device.tuning.bench import Excited, Found, Measured, Wish
     from device.tuning.feed import Sweep
@@ -67,6 +68,7 @@ class Tuner(QObject):
         self.job: Job[Any] | None = None
         self._present: Present | None = None
         self._drawn: list[Curve] = []
+        self._moved = False  # what is drawn are moves
         self._trials: list[tuple[Measured, str]] = []
         self._shown_trials = 0
         self._reading = self._fresh = False  # fresh: of another controller, its gains are not in the fields yet
@@ -105,8 +107,8 @@ class Tuner(QObject):
         low, high = place - guard.reverse, place + guard.forward
         if not (low <= high):
             return Judged("", f"Where axis {asked.axis} stands is not known yet.")
-        limits = [float(setup.counts(Dimension.POSITION, asked.axis, each)) for each in _soft(axis)]
-        if limits and not limits[0] <= low <= high <= limits[1]:
+        reverse, forward = _soft(setup, asked.axis)
+        if low < reverse or high > forward:
             return Judged("", f"That passes a limit of the setup: {self._between(low, high, asked.axis)}.")
         excites = self._panel.page == MODEL or (self._panel.page == AUTOMATIC and asked.drive == UNSURE)
         aside = f" (to be identified, by up to {shown(abs(asked.step) // 2, axis)} to either side)" if excites else ""
@@ -186,7 +188,9 @@ class Tuner(QObject):
             kept = [each for each in found.trials if _same(each.gains, found.gains)]
             best = kept[-1] if kept else None
         self._panel.automatic.show_result(found.words, good=found.gains is not None)
-        if found.gains is not None:
+        if found.gains is None:
+            self._panel.show_result("No gains are recommended; the reason stands above.", good=False)
+        else:
             self._panel.manual.gains.show_filter(found.gains)
             self._panel.show_result("Recommended gains are in the fields; the controller has its former ones.")
         if best is not None:
@@ -233,6 +237,9 @@ class Tuner(QObject):
         from widgets.tuner.plots import Curve
 
         self._book.last = measured
+        if (method == "move") != self._moved:  # a step dwarfs the error of a move
+            self._drawn.clear()
+            self._moved = method == "move"
         curve = Curve(measured.response, gains_words(measured.gains))
         before = self.model.predicted if method == "model" else tuple(self._drawn[-MOST_DRAWN + 1 :])
         self._drawn = [*self._drawn, Curve(measured.response, gains_words(measured.gains), quiet=True)][-MOST_DRAWN:]
@@ -371,9 +378,13 @@ def _same(one: Gains, other: Gains) -> bool:
     return (one.kp, one.ki, one.kd) == (other.kp, other.ki, other.kd)
 
 
-def _soft(axis: Any) -> list[Any]:
-    """Both soft limits of the setup in units, or nothing where one is missing."""
+def _soft(setup: Setup, letter: str) -> tuple[float, float]:
+    """The soft limits of the setup in counts; one that is missing limits nothing."""
     from codegen.numbers import parse_number
 
-    found = [parse_number(text) for text in (axis.reverse_limit, axis.forward_limit)]
-    return [] if None in found else found
+    axis = setup.axis(letter)
+    low, high = parse_number(axis.reverse_limit), parse_number(axis.forward_limit)
+    return (
+        -math.inf if low is None else setup.counts(Dimension.POSITION, letter, low),
+        math.inf if high is None else setup.counts(Dimension.POSITION, letter, high),
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -13,6 +14,7 @@ from PySide6.QtWidgets import QWidget
 
 from app.connection import Connection
 from app.session import Session
+from app.tick import Tick
 from widgets.parts import files
 from widgets.tuner.panel import MANUAL, TunerPanel
 
@@ -39,8 +41,11 @@ class Book(QObject):
         folder: Path,
         parent: QWidget,
         now: Callable[[], datetime],
+        tick: Tick,
     ) -> None:
         super().__init__(parent)
+        self._tick = tick
+        self._writer: ThreadPoolExecutor | None = None
         self._connection, self._session, self._panel = connection, session, panel
         self._folder, self._parent, self._now = folder, parent, now
         self._book: Logbook | None = None
@@ -66,7 +71,7 @@ class Book(QObject):
         serial = (controller.identity.serial or 0) if controller.identity is not None else 0
         file = file_for(self._folder, serial, setup.name, setup.model)
         if self._book is None or self._book.file != file:
-            book = self._book = Logbook(file)
+            book = self._book = Logbook(file, self._later)
             if book.skipped:
                 words = "A line" if book.skipped == 1 else f"{book.skipped} lines"
                 self.said.emit(f"{words} of the logbook {file.name} cannot be read and stay as they are.")
@@ -82,21 +87,27 @@ class Book(QObject):
         self._panel.logbook.show_entries(self.book.entries)
 
     def add(self, entry: Entry) -> None:
-        """One more run; a full disk is said, not raised."""
-        try:
-            self.book.add(entry)
-        except OSError as failure:
-            self.said.emit(f"The run is not in the logbook: {failure.strerror or failure}.")
+        """One more run."""
+        self.book.add(entry)
         self.added.emit(entry)
         self.refresh()
 
     def note(self, number: int, text: str) -> None:
         """What the operator says about a run."""
-        try:
-            self.book.note(number, text)
-        except OSError as failure:
-            self.said.emit(f"The note was not kept: {failure.strerror or failure}.")
+        self.book.note(number, text)
         self.refresh()
+
+    def _later(self, write: Callable[[], None]) -> None:
+        """In a thread of its own, one after the other: a disk may be slow. A full one is said, not raised."""
+
+        def done(future: Future[None]) -> None:
+            if failure := future.exception():
+                why = getattr(failure, "strerror", None) or failure
+                self.said.emit(f"The logbook {self.machine} could not be written, its newest line is lost: {why}.")
+
+        if self._writer is None:
+            self._writer = ThreadPoolExecutor(max_workers=1, thread_name_prefix="logbook")
+        self._tick.when_done(self._writer.submit(write), done)
 
     def show(self, numbers: Sequence[int]) -> None:
         """These runs over each other; the last is the chosen one, with its numbers."""

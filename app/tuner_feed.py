@@ -63,7 +63,7 @@ class Feeding(QObject):
         self._panel.results.error.setChecked(True)  # that is what the moves are for
         first, second = (float(np.abs(m.response.commanded - m.response.actual).max()) for m in measured)
         words = (
-            f"Largest following error of the move: {first:.3g} counts without, {second:.3g} counts with "
+            f"Largest following error of the move in counts: {first:.3g} without, {second:.3g} with "
             f"FV {found.fv:g} and FA {found.fa:g}."
         )
         for each in measured:

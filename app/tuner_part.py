@@ -29,7 +29,7 @@ class TunerPart(QObject):
         folder, now = data / FOLDER, datetime.now
         connection, session, tick, ask = studio.connection, studio.session, studio.tick, studio.desk.ask
         self.panel = TunerPanel()
-        self.book = Book(connection, session, self.panel, folder, studio.window, now)
+        self.book = Book(connection, session, self.panel, folder, studio.window, now, tick)
         self.memory = Memory(studio.settings, session, self.panel, lambda: self.book.machine, self)
         self.tuner = Tuner(
             connection, session, studio.run, tick, self.panel, self.book, self.memory, ask, studio.right.careful,

@@ -6,23 +6,33 @@ import dataclasses as dc
 import json
 import os
 import re
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from device.tuning.entry import Entry, from_data, to_data
 
 
-class Logbook:
-    """Reads a file once and adds to it; a line that a kill left half is skipped."""
+def at_once(write: Callable[[], None]) -> None:
+    """Waits for the disk."""
+    write()
 
-    def __init__(self, file: Path) -> None:
-        self.file = file
+
+class Logbook:
+    """Reads a file once and adds to it; a line that a kill left half is skipped.
+
+    `later` has a line written, in the order given; waiting for a slow disk is not for everybody.
+    """
+
+    def __init__(self, file: Path, later: Callable[[Callable[[], None]], None] = at_once) -> None:
+        self.file, self._later = file, later
         self.entries: tuple[Entry, ...] = ()
         self.skipped = 0  # lines that could not be read
         self._load()
 
     def add(self, entry: Entry) -> Entry:
-        """Keeps a run under the next number; raises OSError where the file cannot be written."""
+        """Keeps a run under the next number; the writing raises OSError where the file cannot be written."""
         kept = dc.replace(entry, number=max((each.number for each in self.entries), default=0) + 1)
         self._append({"run": to_data(kept)})
         self.entries += (kept,)
@@ -41,8 +51,10 @@ class Logbook:
         self.entries = tuple(dc.replace(each, note=text) if each.number == number else each for each in self.entries)
 
     def _append(self, data: dict[str, Any]) -> None:
+        self._later(partial(self._write, json.dumps(data, separators=(",", ":"), ensure_ascii=False).encode() + b"\n"))
+
+    def _write(self, line: bytes) -> None:
         self.file.parent.mkdir(parents=True, exist_ok=True)
-        line = json.dumps(data, separators=(",", ":"), ensure_ascii=False).encode() + b"\n"
         with self.file.open("ab") as file:
             if file.tell() and not self._ends_whole():
                 file.write(b"\n")

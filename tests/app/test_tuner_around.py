@@ -9,7 +9,8 @@ from PySide6.QtTest import QTest
 from device.former import left_behind
 from device.simulator.plant import Plant
 from tests.app.spot import press
-from tests.app.test_tuner import GAINS, asked, click, held, run, tuner, typed
+from tests.app.test_tuner import GAINS, asked, click, held, run, tuner, typed, worked
+from tests.device.tuning.test_logbook import RUN
 from tests.stage import Stage
 from widgets.tuner.panel import AUTOMATIC, LOGBOOK, MANUAL, MODEL, TunerPanel
 
@@ -133,3 +134,15 @@ def test_a_run_is_drawn_whatever_was_looked_at_in_the_logbook(stage: Stage) -> N
     click(panel.buttons[LOGBOOK])
     assert panel.logbook.chosen == 1 and panel.step_plot.names == ("1: KP 10, KI 0, KD 64",)
     assert panel.results.metrics.text() == first
+
+
+def test_a_logbook_that_cannot_be_written_is_said(stage: Stage) -> None:
+    tuner(stage)
+    book = stage.studio.at_machine.tuning.book
+    file = book.book.file
+    file.mkdir(parents=True)  # where the file should be stands something else
+    said: list[str] = []
+    book.said.connect(said.append)
+    book.add(RUN)
+    worked(stage, lambda: said)
+    assert said[0].startswith(f"The logbook {file.name} could not be written, its newest line is lost")

@@ -164,7 +164,8 @@ class BodePlot(QWidget):
         self._levels = [pyqtgraph.InfiniteLine(pos=level, angle=0) for level in (0.0, -180.0)]
         self.gain.addItem(self._levels[0])
         self.phase.addItem(self._levels[1])
-        self.phase.addItem(pyqtgraph.InfiniteLine(pos=MOST_PHASE - 180.0, angle=0, pen=None))  # room for the handle
+        room = pyqtgraph.InfiniteLine(pos=MOST_PHASE - 180.0, angle=0, pen=pyqtgraph.mkPen(None))  # for the handle
+        self.phase.addItem(room)
         self.gain.addItem(self.crossover)
         for handle in (self.below, self.margin):
             self.phase.addItem(handle)

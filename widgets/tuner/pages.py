@@ -34,6 +34,8 @@ DUAL = (
     "The axis works with a dual loop (DV 1): first KD is raised as far as it goes while KP and KI are 0, then KP, then "
     "KI. An axis with weight on it would sink meanwhile: hold it otherwise, or tune it by hand."
 )
+UNKNOWN = "Identify the axis first."
+BACK = "The gains of the chosen run into the fields of the manual page"
 IDENTIFY = "The axis has not been identified. It jumps to and fro within the step while error and torque are recorded."
 
 
@@ -80,6 +82,7 @@ class AutomaticPage(QWidget):
         self.trials.setWordWrap(True)
         self.trials.setSpacing(3)
         self.trials.setMinimumHeight(120)
+        self.trials.hide()  # until there is one: the fields below are what is needed first
         column = _column(self)
         column.addWidget(self.about)
         column.addWidget(self.trials, 1)
@@ -92,11 +95,13 @@ class AutomaticPage(QWidget):
     def add_trial(self, why: str, gains: Gains, words: str) -> None:
         """One more, in sight."""
         self.trials.addItem(QListWidgetItem(f"{gains_words(gains)}\n{why} {words}"))
+        self.trials.show()
         self.trials.scrollToBottom()
 
     def clear(self) -> None:
         """No trials yet."""
         self.trials.clear()
+        self.trials.hide()
         self.show_result("")
 
     def show_result(self, words: str, good: bool = True) -> None:
@@ -160,7 +165,8 @@ class ModelPage(QWidget):
         """Whether there is an estimate to design for, and why there are no gains to run."""
         for field in (self.crossover, self.phase, self.apply):
             field.setEnabled(designed)
-        self._no_gains = reason if designed else "Identify the axis first."
+            field.setToolTip("" if designed else UNKNOWN)
+        self._no_gains = reason if designed else UNKNOWN
         self.show_runnable("")
 
     def show_runnable(self, reason: str) -> None:
@@ -221,7 +227,6 @@ class LogbookPage(QWidget):
         super().__init__(parent)
         self.runs, self.note, self.words = QListWidget(), QLineEdit(), _words(NO_RUNS)
         self.back, self.report = QPushButton("Back to these gains"), QPushButton("Commissioning report…")
-        self.back.setToolTip("The gains of the chosen run into the fields of the manual page")
         self.runs.setAccessibleName("Runs")
         self.runs.setMinimumHeight(160)
         self.runs.setSpacing(2)
@@ -290,7 +295,9 @@ class LogbookPage(QWidget):
         set_text(self.words, told if entry is None else f"{gains_words(entry.gains)}. {entry.words}")
         for widget in (self.note, self.back):
             widget.setEnabled(entry is not None)
+            widget.setToolTip("Choose a run first." if entry is None else BACK if widget is self.back else "")
         self.report.setEnabled(bool(self._entries))
+        self.report.setToolTip("" if self._entries else "No run is kept yet.")
         self.note.setText(entry.note if entry is not None else "")
 
     def tell(self) -> None:

@@ -105,7 +105,9 @@ class StepBox(QWidget):
         self.begin.setEnabled(not why and not running)
         self.begin.setToolTip(why)
         self.free.setEnabled(not running and not judged.problem)
+        self.free.setToolTip("A run is under way." if running else judged.problem or reason)
         self.end.setEnabled(running)
+        self.end.setToolTip("Ends the run; the former values are put back" if running else "Nothing is under way.")
         for field in (self.step, self.volts, self.seconds, self.drive):
             field.setEnabled(not running)
 
