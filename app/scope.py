@@ -177,8 +177,11 @@ class Scope(QObject):
         if before is not None and self.roll is None:
             self._keep_roll(before)
         body.show_roll(self.roll)
+        without = [channel.label for channel in body.choices.channels if not channel.live_key]
         if on and not keys:
             body.show_result("Choose a channel that can be watched first.", good=False)
+        elif on and without:
+            body.show_result(f"Live without {' and '.join(without)}: the controller tells it only in captures.")
 
     def _keep_roll(self, roll: Roll) -> None:
         """What was seen live stays in the list, to be looked at, laid over and saved."""

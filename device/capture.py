@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 TICKS_S = 1_024_000  # a sample is TM of these
 SLOWEST = 8  # RC's exponent: 1 to 8 (dmc-1412-1414.txt l.3420)
 FEWEST = 2  # elements of a channel
+STARTS_S = 0.5  # a ring must last this long, or its turns could not be counted from outside
 TORQUE_FULL, TORQUE_V = 32767, 10.0  # how RD records the motor command (recollection; no manual states it)
 ANALOG_CODE = "AF"  # "analog input values" can be recorded (ssc-tol-o-motion.txt l.1923; the letters are recollection)
 
@@ -194,6 +195,17 @@ def objection(plan: Plan, model: Model) -> str:
     if plan.go and trigger.when is not When.NOW:
         return "A command can be sent along only with a start at once."
     return _trigger_objection(plan, model)
+
+
+def too_short(plan: Plan, tm: float) -> str:
+    """Why a trigger cannot be waited for with so few values at this sample time, as one sentence, or nothing."""
+    lasts = plan.count * plan.interval_s(tm)
+    if plan.trigger.when is When.NOW or lasts >= STARTS_S:
+        return ""
+    return (
+        f"To wait for a trigger the recording must last {STARTS_S:g} s at least; this one lasts {lasts * 1000:.0f} ms. "
+        "Take more values or a longer interval."
+    )
 
 
 def _trigger_objection(plan: Plan, model: Model) -> str:

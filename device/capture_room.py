@@ -10,7 +10,7 @@ from codegen.models import Model
 from codegen.twoletter import nodes
 from codegen.twoletter.parse import parse
 from device.backup import names_in
-from device.capture import Plan, When, most
+from device.capture import Plan, most, too_short
 from device.capture_talk import NOT, Talk
 from device.download import upload_steps
 from device.tasks import LinkError, NotAllowed, Steps
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 NAMES = ("ZCA", "ZKA", "ZXA")  # first of four arrays each; no command begins like these
-STARTS_S = 0.5  # a ring must last this long, or its turns could not be counted from here
 
 
 class Room:
@@ -39,11 +38,8 @@ class Room:
             raise NotAllowed(f"{NOT}: the controller is recording already (_RC is 1). Wait for its end, or send RC 0.")
         self.tm = tm
         plan = self._plan
-        if plan.trigger.when is not When.NOW and plan.count * plan.interval_s(tm) < STARTS_S:
-            raise NotAllowed(
-                f"{NOT}: to wait for a trigger the recording must last {STARTS_S:g} s at least; this one lasts "
-                f"{plan.count * plan.interval_s(tm) * 1000:.0f} ms. Take more values or a longer interval."
-            )
+        if problem := too_short(plan, tm):
+            raise NotAllowed(f"{NOT}: {problem}")
         reserved = yield from self._reserved(model)
         yield from self._room(model, reserved)
         yield from self._dimension()

@@ -35,6 +35,7 @@ from device.capture import (
     objection,
     scale_of,
     shown_by,
+    too_short,
 )
 from device.curves import Derived
 from widgets.panel import set_text
@@ -129,7 +130,7 @@ class Choices(QWidget):
             return "Which controller it is, is not known."
         if self.when is When.LEVEL and (words := number_problem(self.level.text())):
             return f"Level: {words}"
-        return objection(self.plan, self._model)
+        return objection(self.plan, self._model) or too_short(self.plan, self._sample_s * TICKS_S)
 
     # ------------------------------------------------------------------- offered
 

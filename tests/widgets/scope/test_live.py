@@ -64,9 +64,11 @@ def test_an_hour_of_live_values_never_blocks_the_window(stage: Stage) -> None:
 def test_live_shows_the_channels_as_fast_as_the_line_carries(stage: Stage, tmp_path: Path) -> None:
     body = scope(stage)
     choose(body.choices.slots[2].what, "Motor command X")
+    choose(body.choices.slots[3].what, "Status bits X")
     stage.studio.window.hide()
     stage.studio.window.docks["Scope"].show()
     click(body.bar.live)
+    assert body.bar.words.text() == "Live without Status bits X: the controller tells it only in captures."
     stage.go(30)
     stage.rig.controller.ask("PR 20000;BG X")
     stage.until(lambda: not stage.rig.moving)

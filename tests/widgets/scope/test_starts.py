@@ -14,6 +14,7 @@ from widgets.scope.body import Body
 
 def awaited(stage: Stage, body: Body, words: str) -> None:
     """Capture is pressed; it says what it waits for, and has recorded once round by then."""
+    stage.go()
     click(body.bar.capture)
     stage.until(lambda: body.bar.words.text() == f"Waiting: {words}")
     assert body.bar.progress.isVisible() and body.bar.finish.isEnabled() and body.bar.cancel.isEnabled()
@@ -35,6 +36,11 @@ def test_an_input_and_a_level_in_millimetres_begin_a_capture(stage: Stage) -> No
     enter(body.choices.input, "3")
     choose(body.choices.edge, "goes off")
     enter(body.choices.before, "40")
+    enter(body.choices.count, "63")
+    assert body.choices.hint.text().startswith("To wait for a trigger the recording must last 0.5 s at least; this one")
+    stage.go()
+    assert not body.bar.capture.isEnabled()
+    enter(body.choices.count, "66")
     assert "Found to the very value, because Inputs is recorded" in body.choices.hint.text()
     awaited(stage, body, "when input 3 goes off")
     stage.rig.simulation.stimulus("in3", 0)
