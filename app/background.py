@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
 T = TypeVar("T")
+SWITCH_S = 0.001  # between two turns of the interpreter meanwhile: the window waits no longer for its own
 
 
 def in_background(call: Callable[[], T]) -> Future[T]:
     """Begins at once; whoever asked is told by the tick."""
     pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="background")
-    future = pool.submit(call)
+    future = pool.submit(beside, call)
     pool.shutdown(wait=False)
     return future
+
+
+def beside(call: Callable[[], T]) -> T:
+    """Calls it, and lets the window's thread go on in small turns."""
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(SWITCH_S)
+    try:
+        return call()
+    finally:
+        sys.setswitchinterval(before)

@@ -92,7 +92,7 @@ class Studio(QObject):
         self.display, self.messages = DisplayPanel(clock=self.now), MessagesPanel()
         self.terminal, self.simulator = TerminalPanel(), SimulatorPanel()
         self.desk = Desk(self.window, self.session, settings, self.theme, self.messages, pages)
-        self.files = Files(self.session, settings, self.desk.ask, self.window)
+        self.files = Files(self.session, settings, self.desk.ask, self.tick, self.window)
         self.folding = Folding(self.session, self.program, settings, self)
         self.importing = Importing(self.session, self.desk.ask, self.window)
         self.right = RightMachine(self.connection, self.session, self.desk.ask)

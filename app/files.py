@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,20 +12,24 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QBoxLayout, QMainWindow, QMenu
 
 import resources
+from app.background import in_background
 from app.file_bar import FileBar
 from app.in_use import user_of
 from app.run import Ask
 from app.session import ChangedOnDisk, NoPath, Session
 from app.settings import Settings
+from app.tick import Tick
 from codegen.disk import FileUnreadable
+from codegen.document import Document
 from codegen.files import load
-from codegen.generate import generate
+from codegen.generate import Listing, generate
 from widgets.parts import files as choose
 
 if TYPE_CHECKING:
     from widgets.terminal.code_window import CodeWindow
 
 MOST_RECENT = 10
+LARGE = 50_000  # bytes; some 300 steps
 
 
 class Files(QObject):
@@ -33,9 +38,11 @@ class Files(QObject):
     said = Signal(str)
     recent_changed = Signal()
 
-    def __init__(self, session: Session, settings: Settings, ask: Ask, parent: QMainWindow) -> None:
+    def __init__(self, session: Session, settings: Settings, ask: Ask, tick: Tick, parent: QMainWindow) -> None:
         super().__init__(parent)
         self._session, self._settings, self._ask, self._window = session, settings, ask, parent
+        self._tick = tick
+        self._reading: Future[tuple[Document, Listing]] | None = None
         self.bar = FileBar()
         self.comparison: CodeWindow | None = None
         centre = parent.centralWidget().layout()
@@ -57,11 +64,11 @@ class Files(QObject):
             lambda: choose.ask_open(self._window, "Open program", choose.PROGRAMS, self.open_path, self.folder()),
         )
 
-    def open_path(self, path: Path) -> None:
+    def open_path(self, path: Path, at_once: bool = False) -> None:
         """Opens a file that was named; one that another studio has open is asked about."""
         user = user_of(path)
         if not user:
-            self._open_path(path)
+            self._open_path(path, at_once)
             return
         words = (
             f"{path.name} is open in another Twoletter Studio: {user}. "
@@ -77,9 +84,28 @@ class Files(QObject):
         except (FileUnreadable, OSError) as error:
             self._ask("The program cannot be opened", _sentence(error, path), (), "problem")
 
-    def _open_path(self, path: Path) -> None:
+    def _open_path(self, path: Path, at_once: bool = False) -> None:
+        """A large one is read beside the window, which goes on meanwhile."""
+        self._reading = None
+        if at_once or not path.is_file() or path.stat().st_size <= LARGE:
+            self._take(path, lambda: self._session.open(path))
+            return
+        self.said.emit(f"{path.name} is being opened.")
+        self._reading = in_background(partial(_read, path))
+        self._tick.when_done(self._reading, partial(self._was_read, path, self._session.document))
+
+    def _was_read(self, path: Path, before: Document, future: Future[tuple[Document, Listing]]) -> None:
+        if future is not self._reading:
+            return
+        self._reading = None
+        if self._session.document is not before:
+            self.said.emit(f"{path.name} was not opened, because the program was changed meanwhile. Open it again.")
+            return
+        self._take(path, lambda: self._session.take(*future.result(), path))
+
+    def _take(self, path: Path, take: Callable[[], None]) -> None:
         try:
-            self._session.open(path)
+            take()
         except (FileUnreadable, OSError) as error:
             self._ask("The program cannot be opened", _sentence(error, path), (), "problem")
             return
@@ -232,6 +258,12 @@ class Files(QObject):
         """Where programs are looked for first."""
         recent = self.recent
         return self._session.path.parent if self._session.path else recent[0].parent if recent else Path.home()
+
+
+def _read(path: Path) -> tuple[Document, Listing]:
+    """A program with its code, which takes longest; raises FileUnreadable."""
+    document = load(path)
+    return document, generate(document)
 
 
 def _sentence(error: Exception, path: Path | None) -> str:

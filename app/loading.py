@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 import threading
 from importlib import import_module
 
 from PySide6.QtCore import QTimer
+
+from app.background import beside
 
 # numpy and pyqtgraph take most of the time; the others stand on them, or open with a click
 MODULES = (
@@ -16,7 +17,6 @@ MODULES = (
     "device.setup_transfer", "widgets.setup.window", "widgets.help.panel", "app.commissioning",
     "widgets.commissioning.window", "widgets.compare.window", "widgets.backup.window",
 )  # fmt: skip
-SWITCH_S = 0.001  # between two turns of the interpreter meanwhile: the window waits no longer for its own
 
 
 class Loading:
@@ -46,10 +46,4 @@ class Loading:
 
 def load() -> None:
     """Every module, one after the other."""
-    before = sys.getswitchinterval()
-    sys.setswitchinterval(SWITCH_S)
-    try:
-        for name in MODULES:
-            import_module(name)
-    finally:
-        sys.setswitchinterval(before)
+    beside(lambda: [import_module(name) for name in MODULES])

@@ -15,6 +15,7 @@ from app.in_use import Claim
 from app.recovery import Recovered, Recovery
 from codegen import files
 from codegen.document import Document
+from codegen.generate import Listing
 from codegen.history import History
 from codegen.setup import Setup
 
@@ -90,6 +91,11 @@ class Session(Edited):
     def open(self, path: Path) -> None:
         """Opens a program; raises FileUnreadable and leaves everything as it was."""
         document = files.load(path)
+        self._start(document, path.absolute(), saved=True)
+
+    def take(self, document: Document, listing: Listing, path: Path) -> None:
+        """Opens a program that was read before, with its code."""
+        self._listing = (document, listing)
         self._start(document, path.absolute(), saved=True)
 
     def open_copy(self, path: Path) -> None:

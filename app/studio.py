@@ -55,7 +55,7 @@ def begin(studio: Studio, file: Path | None, connect: str) -> None:
     studio.loading.begin(LOADING_MS)
     studio.program.tree.setFocus()
     if file is not None:
-        studio.files.open_path(file)
+        studio.files.open_path(file, at_once=True)  # what is connected may depend on it
     elif (left := studio.desk.left_behind()) is not None:
         studio.in_turn.hold(left)
     else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
@@ -16,6 +17,10 @@ from codegen import files
 from codegen.document import Document
 from codegen.instructions import Label
 from codegen.program import Program
+from device.api import StopState
+from tests.app.pauses import Ticks, too_long
+from tests.benchmarks.editing import large_document
+from tests.long import is_long
 from tests.stage import Stage
 
 OTHER = Document(Program(name="OTHER"))
@@ -200,3 +205,51 @@ def test_examples_open_as_copies(stage: Stage) -> None:
     assert session.document.program.name == "CUTTER"
     menu.aboutToShow.emit()
     assert [action.text() for action in menu.actions()] == texts
+
+
+@pytest.mark.alone
+def test_a_large_program_is_read_beside_the_window(stage: Stage, tmp_path: Path) -> None:
+    """1000 steps: no tick waits for them."""
+    path, session = tmp_path / "large.tlp", stage.studio.session
+    files.save(path, large_document())
+    stage.studio.window.show()
+    stage.connect("machine")
+
+    def opening() -> dict[str, float]:
+        ticks = Ticks(stage)
+        session.new()
+        stage.go()
+        ticks.phase("longest tick while 1000 steps are opened", lambda: stage.studio.files.open_path(path),
+            lambda: session.path == path, then=3)  # fmt: skip
+        assert session.document == large_document() and not session.dirty
+        assert stage.studio.program.tree.model().rowCount() > 1000
+        return ticks.worst
+
+    assert too_long("pytest tests/app/test_files.py", opening, bare=is_long()) == {}
+    assert session.listing.lines[-1].text
+
+
+def test_stop_goes_out_and_work_is_kept_while_a_large_program_is_read(stage: Stage, tmp_path: Path) -> None:
+    path, session = tmp_path / "large.tlp", stage.studio.session
+    files.save(path, large_document())
+    stage.connect("machine")
+    stage.studio.files.open_path(path)
+    assert session.path != path  # it is being read
+    QTest.keyClick(stage.studio.window, Qt.Key.Key_F12)
+    session.insert([Label(name="MINE")])
+    stage.until(lambda: any("was not opened" in text for text in stage.studio.messages.texts()))
+    assert stage.controller.stop_state is StopState.STOPPED
+    assert session.path != path and session.dirty
+    stage.studio.files.open_path(path)
+    stage.until(lambda: session.path == path)
+
+
+def test_a_large_file_that_is_none_is_said(stage: Stage, tmp_path: Path) -> None:
+    path = tmp_path / "large.tlp"
+    path.write_text("no program" * 9000)
+    before = stage.studio.session.document
+    stage.studio.files.open_path(path)
+    stage.until(lambda: stage.studio.desk.question is not None)
+    question = stage.studio.desk.question
+    assert question is not None and question.windowTitle() == "The program cannot be opened"
+    assert stage.studio.session.document is before
