@@ -24,6 +24,7 @@ AMISS = 1.2  # residual over that of counting alone, above which a model without
 WEAK = 0.05  # one sigma of the gain, as a part, above which a second excitation is worth its time
 FEWEST = 200  # samples of motion
 HARDLY = 6.0  # counts of motion
+FINE = 6  # counts of the largest jump to either side; of smaller ones counting makes some percent of error
 LOW_HZ, HIGH_HZ, SCANNED = 20.0, 420.0, 26
 SURE_GAIN = 0.15  # one sigma, as a part, above which a gain is not told
 POLE_UNIT = 10.0  # rad/s; what the search counts in
@@ -250,7 +251,15 @@ def identifying(recordings: Sequence[Recording]) -> Work:
         candidates.append((yield from with_spring(base, 0.3 + 0.35 * n)))
         if at_rest(candidates[-1]) or rubs(candidates[-1]):
             break
-    return concluded(candidates, moved)
+    result = concluded(candidates, moved)
+    jump = max((abs(each) for recording in recordings for each in recording.steps), default=2 * FINE) // 2
+    if isinstance(result, Estimate) and jump < FINE:
+        said = (
+            f"The jumps were {jump} counts, more would have been too much for KP and KD: what is told here may be some "
+            "percent off. With lower gains the jumps are larger."
+        )
+        result = replace(result, notes=(said, *result.notes))
+    return result
 
 
 def at_rest(found: Found) -> bool:

@@ -194,6 +194,17 @@ def test_what_could_not_be_told_is_said() -> None:
     assert "No resonance was seen" in notes and "Coulomb friction is too small" in notes
 
 
+@pytest.mark.long
+def test_jumps_of_a_few_counts_tell_less_and_it_is_said() -> None:
+    """KP 68, KD 670: one count makes 0.9 V, so jumps are 4 counts (0.8 of 10 V over 0.9 V, to either side)."""
+    axis = Axis(Plant())
+    axis.set(Gains(kp=68.25, kd=670.5))
+    found = identify([axis.excite(500, 500)])
+    assert isinstance(found, Estimate)
+    assert found.plant.gain == pytest.approx(gain_of(Plant()), rel=0.05)
+    assert "The jumps were 4 counts" in found.notes[0] and "lower gains" in found.notes[0]
+
+
 def test_an_axis_that_friction_holds_is_not_guessed_at() -> None:
     stuck = Plant(coulomb_friction=0.09)  # 0.9 V; jumps of 20 counts hold 0.15 V
     assert "Allow more travel" in refused(recorded(stuck, 20))
