@@ -16,7 +16,7 @@ from PySide6.QtCore import QObject, Signal
 from app.connection import Connection, Opened
 from app.deeds import Deeds
 from app.tick import Tick
-from codegen.disk import FileUnreadable
+from codegen.disk import FileUnreadable, save_bytes
 from device.api import Controller, Kind
 from device.recorder import MOST_BYTES, SUFFIX, Recorder
 from device.recorder_play import CAPTURE, CONTROLLER, DID, LISTING, NOTICE, TUNING, Player, facts_of, replayed
@@ -187,7 +187,7 @@ class Recorded(QObject):
 
     def _saved(self, path: Path) -> Callable[[], None]:
         try:
-            path.write_bytes(self.kept())
+            save_bytes(path, self.kept())
             words = f"Recording saved: {path}"
         except OSError as reason:
             words = f"The recording was not saved: {reason.strerror or reason} ({path})"

@@ -1,4 +1,4 @@
-"""Text on the disk: written whole or not at all."""
+"""Files on the disk: written whole or not at all."""
 
 from __future__ import annotations
 
@@ -12,12 +12,17 @@ class FileUnreadable(Exception):
 
 
 def save_text(path: str | Path, text: str) -> None:
+    """As UTF-8, with line ends as they are."""
+    save_bytes(path, text.encode("utf-8"))
+
+
+def save_bytes(path: str | Path, data: bytes) -> None:
     """Writes beside the file, then takes its place (also behind a symbolic link), keeping its permissions."""
     path = Path(os.path.realpath(path))
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         _same_permissions(path, name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 import zipfile
 from collections.abc import Callable, Iterator
@@ -16,6 +17,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QFileDialog, QLineE
 from app.deeds import LISTEN_TICKS
 from device.api import Kind, State, StopState
 from device.capture import Channel, Plan
+from device.recorder_format import What
 from device.recorder_play import DID
 from device.recorder_read import Recording, joined
 from tests.app.test_tuner import tuner
@@ -313,6 +315,27 @@ def test_a_recorder_that_can_not_write_is_said_wherever_one_looks(stage: Stage) 
     recorder.flush()
     stage.go(3)
     assert said[1:] == ["The recorder records again."]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a limit of the system takes the place of a full disk")
+def test_a_recording_that_finds_no_room_leaves_the_file_before_it(stage: Stage, tmp_path: Path) -> None:
+    import resource
+
+    recorded, said = stage.studio.at_machine.recorded, list[str]()
+    recorded.said.connect(said.append)
+    stage.studio.recorder.add(What.RECEIVED, 1, os.urandom(200_000))
+    stage.studio.recorder.flush()
+    path = tmp_path / "monday.tape"
+    path.write_bytes(b"before")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, hard))
+    try:
+        recorded.save(path)
+        wait(stage, lambda: said)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert said[0].startswith("The recording was not saved: ") and path.read_bytes() == b"before"
+    assert [each.name for each in tmp_path.glob("*monday*")] == ["monday.tape"]
 
 
 @pytest.fixture
