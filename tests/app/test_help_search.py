@@ -40,6 +40,16 @@ TYPED = {
     "motor does not move": "Troubleshooting",
     "dark": "Colours and layouts",
     "AM": "Commands: Program flow",
+    "autotune": "Tuner",
+    "settling time": "Tuner",
+    "fft": "Scope",
+    "pre-trigger": "Scope",
+    "chart": "Scope",
+    "black box": "Recorder",
+    "logging": "Recorder",
+    "lead through": "Teach",
+    "deadband": "Teach",
+    "sample rate": "Scope",
 }
 
 
