@@ -182,12 +182,15 @@ class Tuner(QObject):
         self._begin(job, f"Tuning {asked.axis}", self._found)
 
     def _found(self, found: Found) -> None:
+        from device.tuning.entry import gains_words
+
         self._show_trials()
         best = next((each for each in reversed(found.trials) if each.gains == found.gains), None)
         if best is None and found.gains is not None:
             kept = [each for each in found.trials if _same(each.gains, found.gains)]
             best = kept[-1] if kept else None
-        self._panel.automatic.show_result(found.words, good=found.gains is not None)
+        chosen = f"Recommended: {gains_words(found.gains)}. " if found.gains is not None else ""
+        self._panel.automatic.show_result(f"{chosen}{found.words}", good=found.gains is not None)
         if found.gains is None:
             self._panel.show_result("No gains are recommended; the reason stands above.", good=False)
         else:

@@ -147,7 +147,7 @@ class StepBox(QWidget):
         for row, (field, name) in enumerate(names.items()):
             field.setAccessibleName(name)
             grid.addWidget(QLabel(name), row, 0)
-            grid.addWidget(field, row, 1)
+            grid.addWidget(field, row, 1, 1, 2 if field is self.drive else 1, Qt.AlignmentFlag.AlignLeft)
         for field in (self.step, self.volts):
             field.setFixedWidth(96)
             field.textEdited.connect(lambda _text: self._changed())
