@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QShowEvent, QTextCharFormat, QTextCursor
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QShowEvent, QTextCharFormat, QTextCursor, QTextFormat
 from PySide6.QtWidgets import QCheckBox, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from device.api import Kind, NoticeKind
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from device.api import Controller, Notice, Reply, Row, Traffic
 
 MOST_LINES = 5000
+TOKEN = int(QTextFormat.Property.UserProperty) + 1  # of a line: the name of its colour
 LEAST = 150  # px of the line that is typed into
 # what a line is: (colour token, sign before it)
 STYLES = {
@@ -59,6 +60,7 @@ class TerminalPanel(Panel):
         self.send.clicked.connect(self.line.send)
         self.clear.clicked.connect(self.log.clear)
         self.keep.clicked.connect(self._keep)
+        self._dressed = look().colour("text")
         self._at_end = True  # nobody has scrolled up to read
         bar = self.log.verticalScrollBar()
         bar.rangeChanged.connect(lambda _, most: bar.setValue(most) if self._at_end else None)
@@ -116,6 +118,7 @@ class TerminalPanel(Panel):
         self.diary.add(sign.strip() or "=", text.rstrip("\r\n"))
         shape = QTextCharFormat()
         shape.setForeground(look().colour(token))
+        shape.setProperty(TOKEN, token)
         cursor = self.log.textCursor()
         cursor.movePosition(QTextCursor.MoveOperation.End)
         if not self.log.document().isEmpty():
@@ -123,6 +126,26 @@ class TerminalPanel(Panel):
         cursor.insertText(sign + text.rstrip("\r\n"), shape)
         if self._at_end:
             self._show_end()
+
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "_dressed"):
+            self._dress()
+
+    def _dress(self) -> None:
+        """What stands there already takes the colours of the theme as it is now."""
+        if self._dressed == look().colour("text"):
+            return
+        self._dressed = look().colour("text")
+        cursor = QTextCursor(self.log.document())
+        block = self.log.document().firstBlock()
+        while block.isValid():
+            cursor.setPosition(block.position())
+            cursor.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
+            shape = QTextCharFormat()
+            shape.setForeground(look().colour(cursor.charFormat().stringProperty(TOKEN) or "text"))
+            cursor.mergeCharFormat(shape)
+            block = block.next()
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)

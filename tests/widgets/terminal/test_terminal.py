@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 from app.theme import Choice, Theme
 from device.api import Controller, Prompt, Reply, State
 from tests.rig import Rig
+from widgets.parts.look import look
 from widgets.terminal.code_window import CodeWindow
 from widgets.terminal.prompt import PromptBox
 from widgets.terminal.terminal import TerminalPanel
@@ -203,3 +204,22 @@ def test_an_empty_controller_says_so(qtbot: QtBot) -> None:
     qtbot.addWidget(window)
     assert "no program" in window.words.text()
     assert not window.save.isEnabled()
+
+
+def test_lines_take_the_colours_of_another_theme(_theme: Theme, terminal: TerminalPanel) -> None:
+    terminal.write("refused", "a reason")
+    terminal.write("reply", "1, 2")
+
+    def colours() -> list[str]:
+        document = terminal.log.document()
+        blocks = [document.findBlockByNumber(document.blockCount() - back) for back in (2, 1)]
+        return [block.begin().fragment().charFormat().foreground().color().name() for block in blocks]
+
+    light = colours()
+    _theme.choose(Choice.DARK)
+    try:
+        dark = [look().colour(name).name() for name in ("fault", "text")]
+        assert colours() == dark != light
+    finally:
+        _theme.choose(Choice.LIGHT)
+    assert colours() == light
