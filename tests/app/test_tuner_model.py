@@ -72,6 +72,34 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
     )
     _feed_forward(stage, panel)
     _beyond_reach(stage, panel)
+    _another_step(stage, panel)
+    _another_machine(stage, panel)
+
+
+def _another_step(stage: Stage, panel: TunerPanel) -> None:
+    """Smaller, and with less torque, than the one that was predicted: what is laid over it is its own prediction."""
+    part = stage.studio.at_machine.tuning.tuner.model
+    typed(panel.box.step, "0.3")
+    typed(panel.box.volts, "1.5")
+    run(stage, panel, panel.model.run)
+    entry = stage.studio.at_machine.tuning.book.book.entries[-1]
+    assert part.proposal is not None and part.proposal.predicted is not None
+    assert entry.step == part.proposal.predicted.commanded[-1] == 191  # 0.3 of 637 counts
+    assert np.abs(part.proposal.predicted.volts).max() == pytest.approx(1.5, abs=0.01)
+    assert np.abs(entry.response.volts).max() == pytest.approx(1.5, abs=0.01)
+    assert panel.step_plot is not None and panel.step_plot.names[0] == "Predicted"
+    assert "Crossover 20" in str(entry.estimate["loop"]) and "phase margin" in str(entry.estimate["loop"])
+
+
+def _another_machine(stage: Stage, panel: TunerPanel) -> None:
+    """Nothing of the one before stands there."""
+    typed(panel.manual.gains.fields["KP"], "77")
+    stage.connect("simulator", "ssc1")
+    stage.until(lambda: panel.manual.gains.fields["KP"].text() == "6")  # what it holds
+    assert panel.model.estimate.text().startswith("The axis has not been identified")
+    assert not panel.model.result.text() and not panel.model.margins.text() and not panel.model.feeds.text()
+    assert not panel.model.run.isEnabled() and not panel.model.apply.isEnabled()
+    assert panel.step_plot is not None and panel.step_plot.names == () and panel.automatic.trials.count() == 0
 
 
 def _feed_forward(stage: Stage, panel: TunerPanel) -> None:
