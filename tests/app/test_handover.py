@@ -11,7 +11,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QPlainTextEdit
 
 from codegen.handover import Handover
+from tests.app.pauses import Ticks, too_long
 from tests.app.test_run import answer, idle, same_model, trigger
+from tests.benchmarks.editing import large_document
+from tests.long import is_long
 from tests.stage import Stage
 from widgets.backup.handover import HandoverPage
 from widgets.program.printing import PrintPreview
@@ -109,6 +112,44 @@ def test_the_pack_has_everything_and_a_header_on_every_page(stage: Stage, tmp_pa
     assert data.startswith(b"%PDF-")
     assert data.count(b"/Type /Page\n") == preview.pages.pageCount()
     preview.close()
+
+
+def long_pack(stage: Stage) -> PrintPreview:
+    """Of a program of 1000 steps."""
+    stage.studio.session.set_document(large_document(), "Long")
+    stage.studio.actions["print_pack"].trigger()
+    preview = stage.studio.proof.handing.preview
+    assert preview is not None
+    return preview
+
+
+@pytest.mark.alone
+def test_a_long_pack_is_written_page_by_page_and_can_be_cancelled(stage: Stage, tmp_path: Path) -> None:
+    preview, path, said = long_pack(stage), tmp_path / "pack.pdf", stage.studio.messages.texts
+    pages = preview.pages.pageCount()
+    assert pages > 20
+    path.write_bytes(b"earlier")
+    preview.save(path)
+    assert preview.progress.isVisible() and 0 < preview.progress.value() < pages
+    assert not preview.buttons["Print"].isEnabled()
+    preview.save(tmp_path / "second.pdf")  # one after the other
+    QTest.keyClick(preview, Qt.Key.Key_F12)
+    QTest.mouseClick(preview.cancel, Qt.MouseButton.LeftButton)
+    assert said()[-1] == "Cancelled: no file was written." and not preview.progress.isVisible()
+    assert [each.name for each in tmp_path.glob("*pdf*")] == ["pack.pdf"] and path.read_bytes() == b"earlier"
+
+    def writing() -> dict[str, float]:
+        ticks = Ticks(stage)
+        count = said().count("Saved pack.pdf")
+        ticks.phase("longest turn while 25 pages are written", lambda: preview.save(path),
+            lambda: said().count("Saved pack.pdf") > count)  # fmt: skip
+        return ticks.worst
+
+    assert too_long("pytest tests/app/test_handover.py", writing, bare=is_long()) == {}
+    assert path.read_bytes().count(b"/Type /Page\n") == pages
+    preview.save(tmp_path / "never.pdf")
+    preview.close()  # in the middle of it
+    assert not list(tmp_path.glob("never*"))
 
 
 @pytest.mark.long

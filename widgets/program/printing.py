@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from functools import partial
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import QMarginsF, QRectF, QSizeF, Qt, QUrl, Signal
+from PySide6.QtCore import QMarginsF, QRectF, QSizeF, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import (
     QColor,
     QDesktopServices,
@@ -19,7 +20,16 @@ from PySide6.QtGui import (
     QPdfWriter,
     QTextDocument,
 )
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
 
 from codegen.document import Document
 from codegen.models import MODELS
@@ -35,6 +45,7 @@ RESOLUTION = 600  # dots an inch
 PAGE = QSizeF(794, 1123)  # A4 at 96 dots an inch
 MARGIN = 76.0  # 20 mm
 GAP = 12  # between pages on the screen
+FEW = 6  # pages that are written at once
 INDENT = "&nbsp;" * 5  # for each step inwards
 STYLE = """
 body, h1, h2, p, td, pre { color: #000000; }
@@ -114,26 +125,44 @@ def make_pages(html: str, document: Document) -> QTextDocument:
     return pages
 
 
-def write_pdf(pages: QTextDocument, path: Path) -> str:
-    """Writes the pages; gives why it could not, or nothing."""
-    try:
-        path.open("ab").close()  # Qt says nothing when it cannot write
-    except OSError as failure:
-        return f"{path.name} cannot be written: {failure.strerror or failure}"
-    writer = QPdfWriter(str(path))
+def write_pages(pages: QTextDocument, path: Path) -> Generator[int, None, None]:
+    """Writes one page after the other and tells its number; raises OSError. The file is there once all are done."""
+    fresh, part = not path.exists(), path.with_name(f"{path.name}.part")
+    path.open("ab").close()  # Qt says nothing when it cannot write
+    writer = QPdfWriter(str(part))
     writer.setPageLayout(_layout())
     writer.setResolution(RESOLUTION)
     writer.setTitle(pages.metaInformation(QTextDocument.MetaInformation.DocumentTitle))
-    painter = QPainter()
-    if not painter.begin(writer):
-        return f"{path.name} cannot be written"
-    scale = writer.width() / PAGE.width()
-    painter.scale(scale, scale)
-    for number in range(pages.pageCount()):
-        if number:
-            writer.newPage()
-        draw_page(painter, pages, number)
-    painter.end()
+    painter, whole = QPainter(), False
+    try:
+        if not painter.begin(writer):
+            raise OSError(0, "its folder takes no other file")
+        scale = writer.width() / PAGE.width()
+        painter.scale(scale, scale)
+        for number in range(pages.pageCount()):
+            if number:
+                writer.newPage()
+            draw_page(painter, pages, number)
+            yield number + 1
+        whole = painter.end()
+        if not whole:
+            raise OSError(0, "the disk may be full")
+        part.replace(path)
+    finally:
+        if not whole:
+            painter.end()
+            part.unlink(missing_ok=True)
+            if fresh:
+                path.unlink(missing_ok=True)
+
+
+def write_pdf(pages: QTextDocument, path: Path) -> str:
+    """Writes all pages at once; gives why it could not, or nothing."""
+    try:
+        for _ in write_pages(pages, path):
+            pass
+    except OSError as failure:
+        return f"{path.name} cannot be written: {failure.strerror or failure}"
     return ""
 
 
@@ -215,23 +244,31 @@ class PrintPreview(QDialog):
         }
         self.buttons["Print"].setToolTip("Opens the pages in the PDF viewer of this computer, which prints them")
         *outs, away = self.buttons.values()
+        self.progress, self.cancel = QProgressBar(), self._button("Cancel", self.stop_writing)
+        self.progress.setAccessibleName("Pages written")
+        self.progress.setRange(0, count)
+        self._writing: Generator[int, None, None] | None = None
+        self._written: Callable[[], str] = str
+        self._name = ""
+        self._next = QTimer(self, singleShot=True, interval=0)
+        self._next.timeout.connect(self._write_page)
         row = QHBoxLayout()
         row.addWidget(self.count, 1)
+        row.addWidget(self.progress, 1)
+        row.addWidget(self.cancel)
         row.addWidget(foot(None, *outs, away=away))
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
         column.addWidget(self.sheets, 1)
         column.addLayout(row)
+        self._show_writing(False)
         self.resize(860, 760)
 
     def print_out(self) -> None:
         """Hands the pages to the PDF viewer."""
         path = Path(tempfile.mkdtemp(prefix="twoletter-print-")) / self.suggested.name
-        failed = write_pdf(self.pages, path)
-        if not failed and not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
-            failed = "There is no program for PDF files on this computer; save as PDF and print it elsewhere."
-        self.said.emit(failed or "The pages are open in the PDF viewer; print them there.")
+        self._write(path, partial(_opened, path))
 
     def choose_file(self) -> None:
         """Asks where the PDF goes."""
@@ -239,7 +276,55 @@ class PrintPreview(QDialog):
 
     def save(self, path: Path) -> None:
         """Writes the PDF and says so."""
-        self.said.emit(write_pdf(self.pages, path) or f"Saved {path.name}")
+        self._write(path, lambda: f"Saved {path.name}")
+
+    def stop_writing(self) -> None:
+        """Nothing is written; what was there before stays."""
+        if self._writing is not None:
+            self._next.stop()
+            self._writing.close()
+            self._ended("Cancelled: no file was written.")
+
+    def done(self, result: int) -> None:
+        self.stop_writing()
+        super().done(result)
+
+    def _write(self, path: Path, written: Callable[[], str]) -> None:
+        """A few pages at once, many one after the other, so that the window goes on; `written` gives what to say."""
+        if self._writing is not None:
+            return
+        self._writing, self._written, self._name = write_pages(self.pages, path), written, path.name
+        few = self.pages.pageCount() <= FEW
+        self._show_writing(not few)
+        self._write_page()
+        while few and self._writing is not None:
+            self._write_page()
+
+    def _write_page(self) -> None:
+        if self._writing is None:
+            return
+        try:
+            number = next(self._writing)
+        except StopIteration:
+            self._ended(self._written())
+        except OSError as failure:
+            self._ended(f"{self._name} cannot be written: {failure.strerror or failure}")
+        else:
+            self.progress.setValue(number)
+            self._next.start()
+
+    def _ended(self, words: str) -> None:
+        self._writing = None
+        self._next.stop()
+        self._show_writing(False)
+        self.said.emit(words)
+
+    def _show_writing(self, on: bool) -> None:
+        for widget in (self.progress, self.cancel):
+            widget.setVisible(on)
+        self.count.setVisible(not on)
+        for text in ("Print", "Save as PDF…"):
+            self.buttons[text].setEnabled(not on)
 
     def _button(self, text: str, action: Callable[[], object]) -> QPushButton:
         button = QPushButton(text)
@@ -247,3 +332,10 @@ class PrintPreview(QDialog):
         button.setAutoDefault(False)
         button.clicked.connect(lambda: action())
         return button
+
+
+def _opened(path: Path) -> str:
+    """Opens a PDF in the viewer; what to say about it."""
+    if QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
+        return "The pages are open in the PDF viewer; print them there."
+    return "There is no program for PDF files on this computer; save as PDF and print it elsewhere."
