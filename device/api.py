@@ -236,7 +236,7 @@ class Controller:
     def ask(self, command: str, timeout_s: float | None = None) -> Future[Reply]:
         """One line as a person types it; the reply says whether it was accepted, and why not."""
         self.used()
-        return self.run(commands.typed(self, command, timeout_s), Priority.USER, "user")
+        return self.run(commands.by_hand(self, command, timeout_s), Priority.USER, "user")
 
     def read(self, *expressions: str) -> Future[tuple[float, ...]]:
         """Reads expressions (`_KPX`, `V1`) right under any number format; refused ones raise Refused."""

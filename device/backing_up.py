@@ -237,6 +237,7 @@ def restore_steps(c: Controller, backup: Backup, job: Job[Restored]) -> Steps[Re
     """Puts a backup back: motors off first and at the end, program last, everything read back and compared."""
     if not c.control:
         raise NotAllowed("Not restored: this is Watch. Switch to Control first.")
+    c.motion.unclaimed("Not restored")
     model = yield from quiet(c, "Not restored")
     reasons = misfits(backup, model)
     if reasons:

@@ -29,6 +29,7 @@ T = TypeVar("T")
 ALONE = frozenset(["RS", "UL", "CI"])  # nothing can stand behind these on a line
 ENDING = frozenset(["MO", "ST", "AB", "HX", "MG"])
 ACTING = frozenset(["AF", "CE", "MT", "OF"])  # may drive a motor at once
+MEANWHILE = ENDING | {"SB", "CB", "OP"}  # what may be sent while an axis is tuned or brought to life
 ENTRY = frozenset(["DL", "ED", "QD"])
 REPLACES = frozenset(["DL", "ED", "RS"])
 SETTLING = "settling"  # who sends what was in effect before a STOP: that starts nothing
@@ -50,6 +51,13 @@ class Reply:
 def names(command: str) -> list[str]:
     """The two-letter names on a line."""
     return [s.name for s in parse_line(command).statements if isinstance(s, nodes.Command)]
+
+
+def by_hand(controller: Controller, command: str, timeout_s: float | None) -> Steps[Reply]:
+    """A line of a person. While an axis is tuned its limits and gains are not those to be burned, set or run with."""
+    if not only_reads(f"{command.rstrip()}\r".encode()) and not MEANWHILE.issuperset(names(command)):
+        controller.motion.unclaimed("Not sent")
+    return (yield from typed(controller, command, timeout_s))
 
 
 def typed(controller: Controller, command: str, timeout_s: float | None) -> Steps[Reply]:

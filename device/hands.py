@@ -84,6 +84,7 @@ class Memory:
         c.motion.let_go()
         if not c.control:
             raise NotAllowed("Not downloaded: this is Watch. Switch to Control first.")
+        c.motion.unclaimed("Not downloaded")
         if c.resting() and not c.waiting.unfinished:
             raise DownloadFailed("Not downloaded: a program is running. Halt it first.")
         try:
@@ -114,13 +115,13 @@ class Memory:
 
     def burn_program(self) -> Future[Reply]:
         """BP: up to 10 s; not while anything runs or moves."""
-        return self._c.run(commands.typed(self._c, "BP", 15.0), Priority.USER, "user")
+        return self._c.run(commands.by_hand(self._c, "BP", 15.0), Priority.USER, "user")
 
     def burn_parameters(self) -> Future[Reply]:
-        return self._c.run(commands.typed(self._c, "BN", 3.0), Priority.USER, "user")
+        return self._c.run(commands.by_hand(self._c, "BN", 3.0), Priority.USER, "user")
 
     def burn_variables(self) -> Future[Reply]:
-        return self._c.run(commands.typed(self._c, "BV", 5.0), Priority.USER, "user")
+        return self._c.run(commands.by_hand(self._c, "BV", 5.0), Priority.USER, "user")
 
 
 class Io:

@@ -159,6 +159,11 @@ class Motion:
             return refused("Not moved: switch the latch on to let a jog go on by itself.")
         return self._lease(axis, speed_counts_s, acceleration, deceleration, owner, latched=True)
 
+    def unclaimed(self, what: str) -> None:
+        """NotAllowed while an axis is tuned or brought to life: its limits and gains are not its own then."""
+        if self.taken:
+            raise NotAllowed(f"{what}: {self.taken}")
+
     def let_go(self, watching: bool = False) -> None:
         """STOP, Watch, another controller: nothing is held and nothing latched any more.
 

@@ -103,6 +103,7 @@ def _registers(c: Controller, keys: Collection[Key]) -> Steps[Readings]:
 def sending_steps(c: Controller, setup: Setup, lines: Collection[Line], job: Job[Sent]) -> Steps[Sent]:
     if not c.control:
         raise NotAllowed("Not sent: this is Watch. Switch to Control first.")
+    c.motion.unclaimed("Not sent")
     model = _known(c, "Not sent")
     if model.name != setup.model:
         raise NotAllowed(f"Not sent: the setup is for {setup.limits.title}, connected is {model.title}.")
@@ -126,6 +127,7 @@ def burning_steps(c: Controller) -> Steps[Reply]:
     """The link itself changes no setting of a controller, so nothing of its own could be burned."""
     if not c.control:
         raise NotAllowed("Not burned: this is Watch. Switch to Control first.")
+    c.motion.unclaimed("Not burned")
     yield from _still(c, _known(c, "Not burned"), 0, "Not burned")
     return (yield from commands.typed(c, "BN", BURN_S))
 

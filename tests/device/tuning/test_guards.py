@@ -11,11 +11,13 @@ from typing import Any
 
 import pytest
 
+from codegen.setup import Setup
 from codegen.twoletter.fixed import ONE
 from device.api import StopState
 from device.backing_up import LINE_S
 from device.former import Former, keep, left_behind, meant, now_there, put_back
 from device.proof import proved
+from device.setup_transfer import burn_setup, send_setup
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped, Wait
 from device.tuning import guards
 from device.tuning.guards import Fault, Guard, guarded
@@ -189,6 +191,34 @@ def test_nobody_moves_it_by_hand_meanwhile(tmp_path: Path) -> None:
     rig.controller.motion.release("mouse")
     rig.result(held_now)
     assert_former(rig)
+
+
+@pytest.mark.parametrize("line", ["BN", "KPX=3", "FL 1000000", "RC 0", "XQ", "SH;BN"])
+def test_what_is_typed_meanwhile_burns_and_changes_nothing(tmp_path: Path, line: str) -> None:
+    """BN would keep the narrow limits for ever, and a gain would be taken for that of the run."""
+    rig = ready()
+
+    def body(former: Former) -> Steps[str]:
+        yield Wait(0.3)
+        return "done"
+
+    future = begin(rig, tmp_path, body)
+    rig.until(lambda: held(rig)["FL"] == 3000)
+    before = held(rig)
+    with pytest.raises(NotAllowed, match="Not sent: axis X is being tuned"):
+        rig.result(rig.controller.ask(line))
+    controller, setup = rig.controller, Setup(model="ssc2")
+    others = (controller.burn_program(), burn_setup(controller), send_setup(controller, setup, ()).future,
+              controller.download("#A\nEN").future)  # fmt: skip
+    for other in others:
+        with pytest.raises(NotAllowed, match=r"Not [a-z]+: axis X is being tuned"):
+            rig.result(other)
+    assert held(rig) == before and not future.done()
+    for allowed in ("MG _KPX", "SB 1", "TE X"):
+        assert rig.result(rig.controller.ask(allowed)).accepted, allowed
+    assert rig.result(future) == "done" and rig.simulation.state()["outputs"] == 1
+    assert_former(rig)
+    assert rig.result(rig.controller.ask("BN")).accepted
 
 
 def test_stop_ends_the_run_and_the_former_values_come_back(tmp_path: Path) -> None:
