@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 
 from device.simulator.kernel import layout
@@ -74,13 +75,15 @@ def back_volts(plant: Plant) -> float:
     return 0.0
 
 
+@functools.lru_cache(maxsize=256)  # every controller that starts asks for the same
 def decay_terms(rate: float, period: float) -> tuple[float, float, float]:
     """For v' = a - rate·v over one period: what is left of v, ∫v for v = 1 (and v for a = 1), ∫∫ for a = 1."""
     result = exponential([[-rate * period, 0.0, period], [period, 0.0, 0.0], [0.0, 0.0, 0.0]])
     return result[0][0], result[0][2], result[1][2]
 
 
-def regime_matrix(plant: Plant, regime: int, step: float) -> list[float]:
+@functools.lru_cache(maxsize=256)
+def regime_matrix(plant: Plant, regime: int, step: float) -> tuple[float, ...]:
     """One regime of the general machine as 5 × 7 coefficients for a step of `step` seconds (see `layout`)."""
     inertia, scale = motor_inertia(plant), counts_per_radian(plant)
     powered = not regime & layout.REGIME_OFF
@@ -122,7 +125,7 @@ def regime_matrix(plant: Plant, regime: int, step: float) -> list[float]:
         lines[0] = lines[3] = [0.0] * 9
     if not is_coupled(plant):
         lines[2] = lines[4] = [0.0] * 9
-    return [lines[line][column] for line in range(layout.MATRIX_ROWS) for column in columns]
+    return tuple(lines[line][column] for line in range(layout.MATRIX_ROWS) for column in columns)
 
 
 def substeps(plant: Plant, period: float) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Sequence
 from enum import IntFlag
 from typing import TypeAlias
@@ -39,6 +40,12 @@ class Event(IntFlag):
     ABORT = layout.EVENT_ABORT
 
 
+@functools.cache
+def sine_table() -> tuple[float, ...]:
+    """Sines of a whole turn and its first again; what they are is worked out once."""
+    return tuple(angle.sine(360.0 * n / layout.SINE_LENGTH) for n in range(layout.SINE_LENGTH + 1))
+
+
 class Motion(Moves, Outside):
     """Profiler, servo and machine of one to four axes."""
 
@@ -66,8 +73,8 @@ class Motion(Moves, Outside):
         state[layout.INPUTS] = 255.0
         for n in range(8):
             state[layout.INPUT_1 + n] = 1.0
-        for n in range(layout.SINE_LENGTH + 1):
-            state[layout.SINE + n] = angle.sine(360.0 * n / layout.SINE_LENGTH)
+        for n, value in enumerate(sine_table()):
+            state[layout.SINE + n] = value
         for axis in range(self.axes):
             write_defaults(state, axis_base(axis))
             write_plant(state, axis_base(axis), self._plants[axis], state[layout.PERIOD_T])
