@@ -53,7 +53,7 @@ class Rig:
         tap: Callable[[Transport], Transport] = lambda line: line,
         **more: Any,
     ) -> None:
-        self.simulation = Simulation(model_named(model), plants, baud=line.baud, compiled=False)
+        self.simulation = Simulation(model_named(model), plants, baud=line.baud)
         self.began, self.openable, self._tap = began, openable, tap
         if revision:
             self.simulation.unit.revision = lambda: revision  # type: ignore[method-assign]
