@@ -173,14 +173,14 @@ class Parts(QWidget):
 
     def make_plot(self) -> Iterator[None]:
         """It takes as long as everything else here, so it comes in pieces."""
-        from widgets.parts.plot import Plot, inside
+        from widgets.parts.plot import inside
+        from widgets.teach.picture import PathPicture
 
         yield
         item = inside()
         yield
-        self.plot = Plot("Path of the teach table", equal=True, parent=self, item=item)
+        self.plot = PathPicture("Path of the teach table", equal=True, parent=self, item=item)
         self.plot.setMinimumHeight(LOWEST_PICTURE)
-        self.plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)  # its own wish is a window
         self._line, self._dots = self.plot.plot(), self.plot.plot(symbol="o", symbolSize=6, symbolPen=None)
         self._now = self.plot.plot(symbol="o", symbolSize=12, symbolPen=None)
         self._column.insertWidget(self._column.count() - 1, self.plot, 2)
@@ -254,6 +254,9 @@ class Parts(QWidget):
         for key, words in SOURCES.items():
             self.source.addItem(words, key)
         self.source.setAccessibleName("Drive with")
+        self.source.setToolTip(
+            "The joystick at the controller (analog inputs 1 and 2), the stick on the screen, or a gamepad"
+        )
         self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.source.setMinimumContentsLength(10)
         self.enable.setCheckable(True)
