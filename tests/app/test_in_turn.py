@@ -45,8 +45,11 @@ def answer(stage: Stage, words: str) -> None:
 
 
 def test_dialogs_after_a_kill_come_one_after_the_other(stage: Stage) -> None:
+    """Unsaved work comes last; where it is shown already, it steps aside."""
     killed(stage)
     begin(stage.studio, None, "offline")
+    stage.go(2)
+    assert shown(stage) == [UNSAVED]
     rig = stage.connect("machine", "ssc2", answers=False, program=KILLED)
     rig.simulation.execute("#A")
     seen: list[str] = []
@@ -62,23 +65,10 @@ def test_dialogs_after_a_kill_come_one_after_the_other(stage: Stage) -> None:
             answer(stage, words)
         for _ in range(30):
             look()
-    assert seen[0] == TITLE
-    assert set(seen[1:3]) == {STEP.title, TUNING.title}
-    assert seen[3:] == [UNSAVED]
+    assert seen[:2] == [UNSAVED, TITLE]
+    assert set(seen[2:4]) == {STEP.title, TUNING.title}
+    assert seen[4:] == [UNSAVED]
     assert not left_behind(stage.studio.data / "tuning") and not left_behind(stage.studio.data / "commissioning")
-
-
-def test_unsaved_work_steps_aside_for_the_machine(stage: Stage) -> None:
-    Recovery(stage.studio.data / "recovery").set_aside(Document(), None, WHEN)
-    begin(stage.studio, None, "offline")
-    stage.go(3)
-    assert shown(stage) == [UNSAVED]
-    rig = stage.connect("machine", "ssc2", answers=False, program=KILLED)
-    rig.simulation.execute("#A")
-    stage.until(lambda: shown(stage) == [TITLE])
-    answer(stage, "Go on watching")
-    stage.go(3)
-    assert shown(stage) == [UNSAVED]
 
 
 @pytest.mark.long
