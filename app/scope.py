@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from PySide6.QtWidgets import QWidget
 
-    from device.capture import Capture, Plan
+    from device.capture import Capture, Channel, Plan
     from device.capturing import CaptureJob
     from device.roll import Roll
     from widgets.scope.body import Body
@@ -70,6 +70,7 @@ class Scope(QObject):
         self.roll: Roll | None = None
         self.note: Callable[[str, bytes], None] = lambda kind, what: None  # to the recorder
         self._watched: Controller | None = None
+        self._rolled: Sequence[Channel] = ()  # what is watched of it
         self._drawn_at = 0.0
         self._read, self._placed = 0, False
         panel.opened.connect(self._opened)
@@ -163,7 +164,7 @@ class Scope(QObject):
 
         controller, body = self._connection.controller, self._body
         keys = [channel.live_key for channel in body.live_channels]
-        goes_on = self.roll if self._watched is controller else None
+        goes_on, former, channels = self.roll if self._watched is controller else None, self._watched, self._rolled
         if self._watched is not None:
             self._watched.hurry(False)
             self._watched.watch(OWNER, ())
@@ -171,11 +172,11 @@ class Scope(QObject):
         before, self.roll = self.roll, None
         if on and keys and controller.kind is not Kind.OFFLINE:
             self.roll = Roll(keys, before=goes_on)
-            self._watched = controller
+            self._watched, self._rolled = controller, body.live_channels
             controller.watch(OWNER, keys, each_round=keys)
             controller.hurry(True)
-        if before is not None and self.roll is None:
-            self._keep_roll(before)
+        if before is not None and former is not None and self.roll is None:
+            self._keep_roll(before, channels, former)
         body.show_roll(self.roll)
         without = [channel.label for channel in body.choices.channels if not channel.live_key]
         if on and not keys:
@@ -183,19 +184,32 @@ class Scope(QObject):
         elif on and without:
             body.show_result(f"Live without {' and '.join(without)}: the controller tells it only in captures.")
 
-    def _keep_roll(self, roll: Roll) -> None:
+    def _keep_roll(self, roll: Roll, channels: Sequence[Channel], controller: Controller) -> None:
         """What was seen live stays in the list, to be looked at, laid over and saved."""
-        found = self._told_of(roll.capture(self._body.live_channels, -math.inf, math.inf))
+        from device.curves import curves
+
+        told, derived = self._told(controller), self._body.choices.shown
+
+        def made() -> Capture:
+            found = replace(roll.capture(channels, -math.inf, math.inf), **told)
+            curves(found, derived)  # known by the time they are drawn
+            return found
+
+        self._tick.when_done(in_background(made), self._kept_roll)
+
+    def _kept_roll(self, future: Future[Any]) -> None:
+        found: Capture = future.result()
         if found.count > 1:
             self._body.add(found, f"Live {found.when[11:]}")
 
-    def _told_of(self, live: Capture) -> Capture:
-        """A stretch of the roll with where it comes from."""
-        controller = self._connection.controller
-        when = datetime.now().isoformat(sep=" ", timespec="seconds")
-        model = controller.model.name if controller.model is not None else ""
-        setup = self._session.document.working_setup
-        return replace(live, model=model, controller=controller.who, when=when, setup=setup)
+    def _told(self, controller: Controller) -> dict[str, Any]:
+        """Where a stretch of the roll comes from."""
+        return {
+            "model": controller.model.name if controller.model is not None else "",
+            "controller": controller.who,
+            "when": datetime.now().isoformat(sep=" ", timespec="seconds"),
+            "setup": self._session.document.working_setup,
+        }
 
     def _attach(self, controller: Controller) -> None:
         """Another controller: nothing of the former goes on."""
@@ -247,7 +261,7 @@ class Scope(QObject):
 
     def _save(self, capture: Capture) -> None:
         if capture.moments is not None and not capture.when:
-            capture = self._told_of(capture)
+            capture = replace(capture, **self._told(self._connection.controller))
         stem = capture.when.replace(":", ".") or "capture"
         proposed = Path.home() / f"{stem}.csv"
         ask_save(self._window, "Save capture", CAPTURES, partial(self.save, capture), proposed, "csv")
@@ -274,13 +288,24 @@ class Scope(QObject):
         ask_open(self._window, "Open capture", CAPTURES, self.open, folder)
 
     def open(self, path: Path) -> None:
-        """An earlier capture is shown; of a file that is none, one sentence says why."""
+        """An earlier capture is shown; of a file that is none, one sentence says why. It is read beside the window."""
         from device.capture_file import load
+        from device.curves import curves
 
-        try:
-            capture = load(path)
-        except FileUnreadable as reason:
-            self._body.show_result(f"{reason}.", good=False)
+        derived = self._body.choices.shown
+
+        def read() -> Capture:
+            found = load(path)
+            curves(found, derived)  # known by the time they are drawn
+            return found
+
+        self._tick.when_done(in_background(read), partial(self._opened_file, path))
+
+    def _opened_file(self, path: Path, future: Future[Any]) -> None:
+        failure = future.exception()
+        if isinstance(failure, FileUnreadable):
+            self._body.show_result(f"{failure}.", good=False)
             return
+        capture: Capture = future.result()
         self._body.add(capture, path.name)
         self._body.show_result(f"{path.name}: {capture.count} values a channel.")

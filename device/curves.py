@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,6 +54,12 @@ class Curve:
 
 def curves(capture: Capture, derived: Collection[Derived] = ()) -> tuple[Curve, ...]:
     """Every recorded channel, then what is derived of it, all in user units."""
+    return _curves(capture, frozenset(derived))
+
+
+@lru_cache(maxsize=6)
+def _curves(capture: Capture, derived: frozenset[Derived]) -> tuple[Curve, ...]:
+    """A long one takes a while, and is drawn again with each thing that is chosen."""
     found = [_recorded(capture, channel) for channel in capture.channels]
     for kind in Derived:
         if kind in derived:
@@ -222,7 +229,7 @@ def measure(times: Values, values: Values) -> Measured:
         least,
         most,
         float(values.mean()),
-        math.sqrt(float(values @ values) / len(values)),
+        math.sqrt(float(np.square(values).mean())),  # a scalar product would wake threads for so little
         most - least,
         rise_time(times, values) if shaped else math.nan,
         frequency(times, values) if shaped else math.nan,

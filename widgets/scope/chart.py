@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from widgets.parts.look import look
 from widgets.parts.plot import Plot, inside
 from widgets.parts.turns import Turns
+from widgets.scope.curve import DrawnCurve
 
 FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
 FEW_TOGETHER = 5000  # of all curves
@@ -51,7 +52,7 @@ class Strip(Plot):
         self.legend.setTextFormat(Qt.TextFormat.RichText)
         self.legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.legend.setAutoFillBackground(True)
-        self.items: list[Any] = []
+        self.items: list[DrawnCurve] = []
         self._pens: list[tuple[Any, ...]] = []
         self.setMinimumHeight(60)
 
@@ -90,7 +91,7 @@ class Strip(Plot):
             self.removeItem(self.items.pop())
             self._pens.pop()
         while len(self.items) < len(lines):
-            self.items.append(pyqtgraph.PlotCurveItem())
+            self.items.append(DrawnCurve())
             self.addItem(self.items[-1])
             self._pens.append(())
         for place, (item, line) in enumerate(zip(self.items, lines, strict=True)):
@@ -100,7 +101,7 @@ class Strip(Plot):
                 self._pens[place] = looks
                 item.setPen(_pen(line, smooth))
                 item.setZValue(-1 if line.faded else 0)
-            item.setData(line.x, line.y, antialias=smooth, skipFiniteCheck=True, connect="all")
+            item.give(line.x, line.y, smooth)
 
 
 def _smooth(y: NDArray[np.float64]) -> bool:

@@ -43,6 +43,7 @@ from widgets.parts.spin import indented
 from widgets.scope.slot import Slot
 
 SLOTS = 4
+COUNT_WIDTH = 96  # px: four digits
 WHENS = {
     When.NOW: "At once",
     When.MOTION: "Motion begins",
@@ -317,6 +318,8 @@ class Choices(QWidget):
         form.setLabelAlignment(Qt.AlignmentFlag.AlignVCenter)
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         values, level = QHBoxLayout(), QHBoxLayout()
+        self.count.setMinimumWidth(COUNT_WIDTH)
+        values.setSpacing(8)
         values.addWidget(self.count, 1)
         values.addWidget(self.length)
         level.addWidget(self.level, 1)

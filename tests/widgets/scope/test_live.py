@@ -96,8 +96,14 @@ def test_live_shows_the_channels_as_fast_as_the_line_carries(stage: Stage, tmp_p
     stage.go()
     assert stage.studio.at_machine.scope.roll is None and not stage.controller.poller.hurry
     assert "scope" not in stage.controller.poller._wanted
+    stage.until(lambda: body.kept.current is not None)
     kept = body.kept.current
-    assert kept is not None and kept.moments is not None and body.kept.list.item(0).text().startswith("Live ")
+    assert (
+        kept is not None
+        and kept.model == "ssc2"
+        and kept.moments is not None
+        and body.kept.list.item(0).text().startswith("Live ")
+    )
     assert kept.count > 0.9 * min(track.count for track in roll.tracks.values())
 
 

@@ -113,3 +113,29 @@ def test_the_picture_goes_into_a_file_and_colours_are_chosen(qapp: QApplication,
     small = found.scaled(found.width() // 2, found.height() // 2)
     near = [small.pixelColor(x, y) for x in range(small.width()) for y in range(0, small.height(), 2)]
     assert any(abs(each.red() - colour.red()) + abs(each.blue() - colour.blue()) < 60 for each in near)
+
+
+def test_many_values_are_drawn_as_far_as_a_picture_shows_them(qapp: QApplication, body: Body) -> None:
+    """All of their peaks from afar, every one of them from near; the whole of them whenever everything is shown."""
+    times, values = np.arange(50_000) * 0.07, np.zeros((1, 50_000))
+    values[0, 12_345] = 1000.0
+    body.add(Capture((X,), values, 1, 1000.0, trigger_text="live", moments=times, setup=body._setup))
+    item = body.chart.strips["Position"].items[0]
+    x, y = item.getData()
+    assert len(x) < 2100 and (x[0], x[-1]) == (times[0], times[-1]) and y.max() == 2.0
+    body.chart.show_range(times[12_340], times[12_350])
+    qapp.processEvents()
+    x, y = item.getData()
+    np.testing.assert_array_equal(x, times[12_339:12_352])  # one beyond at either side
+    assert y[6] == 2.0 and body.chart.strips["Position"].viewRange()[1][1] > 2.0
+    click(body.bar.fit)
+    qapp.processEvents()
+    low, high = body.chart.range
+    assert low <= times[0] and high >= times[-1] and item.getData()[0][-1] == times[-1]
+    body.add(
+        Capture((X, Y), np.stack([np.cos(times), np.sin(times)]) * 500, 1, 1000.0, moments=times, setup=body._setup)
+    )
+    choose(body.bar.views, str(View.PLANE))
+    x, y = next(iter(body.chart.strips.values())).items[0].getData()
+    assert 5000 < len(x) <= 10_000
+    np.testing.assert_allclose(np.hypot(x, y), 1.0)

@@ -196,7 +196,7 @@ def test_an_earlier_capture_is_opened_and_laid_over(stage: Stage, tmp_path: Path
     dialog = next(each for each in stage.studio.window.findChildren(QFileDialog) if each.isVisible())
     dialog.fileSelected.emit(str(tmp_path / "before.csv"))
     dialog.close()
-    stage.go()
+    stage.until(lambda: body.bar.words.text() == "before.csv: 20 values a channel.")
     assert body.shown is not None and np.array_equal(body.shown.values, other.values)
     body.side.setCurrentWidget(body.kept)
     stage.go()
@@ -215,7 +215,7 @@ def test_an_earlier_capture_is_opened_and_laid_over(stage: Stage, tmp_path: Path
     np.testing.assert_allclose(lines[0] - lines[2], 50 / SCALE)
     (tmp_path / "broken.csv").write_text("1;2;3", encoding="utf-8")
     stage.studio.at_machine.scope.open(tmp_path / "broken.csv")
-    assert body.bar.words.text().startswith("broken.csv is not a capture: ")
+    stage.until(lambda: body.bar.words.text().startswith("broken.csv is not a capture: "))
 
 
 def test_saving_asks_for_a_file_and_writes_it(stage: Stage, tmp_path: Path) -> None:
