@@ -54,9 +54,14 @@ def names(command: str) -> list[str]:
 
 
 def by_hand(controller: Controller, command: str, timeout_s: float | None) -> Steps[Reply]:
-    """A line of a person. While an axis is tuned its limits and gains are not those to be burned, set or run with."""
-    if not only_reads(f"{command.rstrip()}\r".encode()) and not MEANWHILE.issuperset(names(command)):
-        controller.motion.unclaimed("Not sent")
+    """A line of a person. What is there only for a while (of a tuning, a move by hand, a capture) is never burned."""
+    found, motion = names(command), controller.motion
+    if not only_reads(f"{command.rstrip()}\r".encode()) and not MEANWHILE.issuperset(found):
+        motion.unclaimed("Not sent")
+    if "BN" in found and motion.busy:
+        raise NotAllowed(f"Not burned: {motion.busy} is under way; its speeds would be kept. Wait for its end.")
+    if "BV" in found and controller.recording:
+        raise NotAllowed(f"Not burned: {controller.recording}")
     return (yield from typed(controller, command, timeout_s))
 
 

@@ -129,7 +129,7 @@ def burning_steps(c: Controller) -> Steps[Reply]:
         raise NotAllowed("Not burned: this is Watch. Switch to Control first.")
     c.motion.unclaimed("Not burned")
     yield from _still(c, _known(c, "Not burned"), 0, "Not burned")
-    return (yield from commands.typed(c, "BN", BURN_S))
+    return (yield from commands.by_hand(c, "BN", BURN_S))
 
 
 def _known(c: Controller, what: str) -> Model:

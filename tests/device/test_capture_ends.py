@@ -130,6 +130,17 @@ def test_the_tuner_does_not_take_a_capture_its_arrays(tmp_path: Path) -> None:
     assert captured(rig, Plan((POSITION,), 1, 40)).complete
 
 
+def test_arrays_of_a_capture_are_not_burned() -> None:
+    """BV keeps array values (dmc-1412-1414.txt l.3213)."""
+    rig = moving()
+    job = waiting(rig)
+    with pytest.raises(NotAllowed, match="Not burned: a capture is under way"):
+        rig.result(rig.controller.ask("BV"))
+    job.cancel()
+    rig.until(job.future.done)
+    assert rig.result(rig.controller.ask("BV")).accepted
+
+
 def test_another_recording_that_a_person_begins_meanwhile_ends_it() -> None:
     rig = moving()
     job = waiting(rig)

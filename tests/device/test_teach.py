@@ -14,6 +14,7 @@ import pytest
 from codegen.setup import Setup, Unit
 from codegen.teach import Row, Table, counts_of
 from device.api import LinkError, NotAllowed, Places
+from device.setup_transfer import burn_setup
 from device.teach import Action, Move, PlayBack, Played, approach, passes
 from device.teach_actions import actions_of, ends_of
 from device.teach_time import seconds_of
@@ -135,6 +136,20 @@ def test_everything_that_stops_it_stops_all_of_it(how: str) -> None:
     if how not in ("watch", "cable"):  # what runs next may brake by them
         read = controller.read("_SPX", "_ACX", "_DCY", "_VS", "_VD")
         assert playing.bench.result(read) == (25_000, 256_000, 256_000, 25_000, 256_000)
+
+
+def test_what_a_play_back_needs_is_not_burned() -> None:
+    """Nothing moves while it waits for an input, and BN would be taken: with the speeds of the approach."""
+    playing = Playing((place("2", "1", wait="-3"), place("4", "3")))
+    bench = playing.bench
+    bench.run_until(lambda: playing.play.doing.startswith("Row 1 waits"))
+    assert bench.still()
+    for future in (bench.controller.ask("BN"), burn_setup(bench.controller)):
+        with pytest.raises(NotAllowed, match="Not burned: Play-back is under way; its speeds would be kept"):
+            bench.result(future)
+    bench.controller.motion.release("teach")
+    bench.run_until(playing.future.done)
+    assert bench.result(bench.controller.ask("BN")).accepted
 
 
 def test_outputs_are_switched_only_while_io_control_is_on() -> None:
