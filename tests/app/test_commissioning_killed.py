@@ -36,7 +36,7 @@ LARGEST_ERROR = 60.0  # counts: as typed on the page
 WAY = 400 + 200  # counts: the longest move of the hand, and what it may leave its target by
 LATEST_S = 7.0  # after the first press of a button: anywhere in the first moves
 WATCHED_S = 1.2  # for a move that was under way
-PATIENCE_S = 30.0
+PATIENCE_S = 60.0
 SEED = 3
 pytestmark = [NO_PTY, pytest.mark.paced, pytest.mark.timeout(count(240, 3600))]
 
