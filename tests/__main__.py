@@ -10,8 +10,10 @@ import sys
 import tempfile
 import time
 import xml.etree.ElementTree as ElementTree
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeAlias
 
 from tests.long import collect
 from tests.long.progress import begin_part, kept
@@ -30,6 +32,7 @@ PARTS = (
     ("tests that measure time", "alone", 0),
 )
 NOTHING_COLLECTED = 5
+Checked: TypeAlias = list[tuple[str, subprocess.CompletedProcess[str]]]  # name and outcome of each static check
 
 
 @dataclass
@@ -54,13 +57,21 @@ class Totals:
             self.skipped += skipped
 
 
-def run_check(name: str, arguments: tuple[str, ...], totals: Totals) -> None:
-    """Runs one static check and shows its output only when it fails."""
-    done = subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True)
-    print(f"{name}: {'ok' if done.returncode == 0 else 'FAILED'}", flush=True)
-    if done.returncode:
-        print(done.stdout + done.stderr, flush=True)
-        totals.broken.append(name)
+def run_checks() -> Checked:
+    """Runs the static checks one after the other."""
+    return [
+        (name, subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True))
+        for name, arguments in CHECKS
+    ]
+
+
+def tell_checks(checks: Future[Checked], totals: Totals) -> None:
+    """Waits for the static checks and shows what they said only where they failed."""
+    for name, done in checks.result():
+        print(f"{name}: {'ok' if done.returncode == 0 else 'FAILED'}", flush=True)
+        if done.returncode:
+            print(done.stdout + done.stderr, flush=True)
+            totals.broken.append(name)
 
 
 def run_tests(title: str, arguments: list[str], environment: dict[str, str], totals: Totals) -> None:
@@ -94,12 +105,17 @@ def workers(number: int) -> list[str]:
     return ["-n", str(number), "--dist", "worksteal"] if number and importlib.util.find_spec("xdist") else []
 
 
-def run_everyday(chosen: list[str], totals: Totals) -> None:
-    """All parts with the short counts, one after the other: what keeps a pace needs the processors when it wakes."""
+def run_everyday(chosen: list[str], totals: Totals, checks: Future[Checked]) -> None:
+    """All parts with the short counts, one after the other: what keeps a pace needs the processors when it wakes.
+
+    The static checks need one processor for a while: they run beside the first part, which measures no time.
+    """
     environment = dict(os.environ, QT_QPA_PLATFORM="offscreen")
     environment.pop("TWOLETTER_LONG", None)
-    for title, marks, number in PARTS:
+    for place, (title, marks, number) in enumerate(PARTS):
         run_tests(title, [*workers(number), "-m", marks, *chosen], environment, totals)
+        if place == 0:
+            tell_checks(checks, totals)
 
 
 def run_long(chosen: list[str], totals: Totals, *, resume: bool) -> None:
@@ -133,13 +149,14 @@ def main(argv: list[str] | None = None) -> int:
     started = time.monotonic()
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # hundreds of processes would compile everything again
     totals = Totals()
-    for name, arguments in CHECKS:
-        run_check(name, arguments, totals)
     chosen = [*options.rest, *extra]
-    if options.long:
-        run_long(chosen, totals, resume=options.resume)
-    else:
-        run_everyday(chosen, totals)
+    with ThreadPoolExecutor(1) as beside:
+        checks = beside.submit(run_checks)
+        if options.long:
+            tell_checks(checks, totals)
+            run_long(chosen, totals, resume=options.resume)
+        else:
+            run_everyday(chosen, totals, checks)
     print(summary(totals, time.monotonic() - started))
     return 1 if totals.failed or totals.errors or totals.broken or not totals.passed else 0
 
