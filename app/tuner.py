@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from widgets.tuner.plots import Curve
 
 MOST_DRAWN = 4  # responses over each other
+STEADY = 3.0  # counts
 
 
 class Tuner(QObject):
@@ -73,6 +74,7 @@ class Tuner(QObject):
         self._shown_trials = 0
         self._reading = self._fresh = False  # fresh: of another controller, its gains are not in the fields yet
         self._since = -math.inf  # what was read before this moment is from before a run
+        self._hangs = 0.0  # counts, as it was last told; a count more or less makes no other sentence of it
         self.model = Modelling(tick, panel, self._excite, self._show_running, self._ended, memory, self)
         self.feeding = Feeding(panel, self.model, careful, self._moves, self._begin, self._keep, self._tops, self)
         panel.judge = self.judge
@@ -101,7 +103,7 @@ class Tuner(QObject):
         if wrong:
             return Judged("", f"{wrong[:1].upper()}{wrong[1:]}")
         setup = self._session.document.working_setup
-        axis, guard = setup.axis(asked.axis), wish.guard
+        axis, guard = setup.axis(asked.axis), wish.guard.bearing(self._hangs)
         row, key = self._connection.controller.last(), f"commanded.{asked.axis.lower()}"
         place = row.value(key) if row.time(key) > self._since else math.nan
         low, high = place - guard.reverse, place + guard.forward
@@ -110,11 +112,13 @@ class Tuner(QObject):
         reverse, forward = _soft(setup, asked.axis)
         if low < reverse or high > forward:
             return Judged("", f"That passes a limit of the setup: {self._between(low, high, asked.axis)}.")
+        error = guard.error if self._present is None else min(guard.error, self._present.error)
+        about = "about " if self._hangs else ""
         excites = self._panel.page == MODEL or (self._panel.page == AUTOMATIC and asked.drive == UNSURE)
         aside = f" (to be identified, by up to {shown(abs(asked.step) // 2, axis)} to either side)" if excites else ""
         return Judged(
             f"{asked.axis} moves by {shown(asked.step, axis)} {unit_of(axis)} and back{aside}, and stays between "
-            f"{self._between(low, high, asked.axis)}; beyond {guard.error} counts of error its motor goes off."
+            f"{self._between(low, high, asked.axis)}; beyond {about}{error} counts of error its motor goes off."
         )
 
     def _not_excited(self, asked: Asked) -> str:
@@ -324,6 +328,7 @@ class Tuner(QObject):
 
     def _forget(self) -> None:
         """What is shown belongs to another axis."""
+        self._hangs = 0.0
         self._drawn.clear()
         self.model.forget()
         if self._joined:
@@ -370,6 +375,8 @@ class Tuner(QObject):
             if failure_of(future) or controller is not self._connection.controller or axis != self._panel.axis:
                 return
             self._present, self._fresh = future.result(), False
+            if abs(future.result().hangs - self._hangs) > STEADY + self._hangs / 10:
+                self._hangs = float(round(future.result().hangs))
             self._panel.show_present(future.result().gains, future.result().dual)
             if into_fields and typed == self._panel.manual.gains.texts:  # nobody has typed meanwhile
                 self._panel.manual.gains.show_gains(future.result().gains)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,23 +24,22 @@ from device.former import Former, assign
 from device.lease import at
 from device.proof import proved
 from device.quiet import ready
-from device.tasks import LinkError, Steps, Wait
+from device.tasks import LinkError, NotAllowed, Steps, Wait
 from device.tuning.automatic import Chosen, Search, search, vibrates
 from device.tuning.automatic import seen as seen_of
-from device.tuning.excite import Excitation, NotIdentified, excitation, held, refused
+from device.tuning.excite import Excitation, NotIdentified, carried, excitation, held, refused, sag
 from device.tuning.feed import Sweep
 from device.tuning.guards import Cancelled, Fault, Guard, not_stopped, watch
 from device.tuning.loop import Gains, period
 from device.tuning.metrics import Metrics, Response, measure, measured_words
 from device.tuning.recording import Recording
+from device.tuning.registers import ALL, FIELDS, gains_of, registers
 from device.wire import Kind
 
 if TYPE_CHECKING:
     from codegen.models import Model
     from device.api import Controller
 
-FIELDS = {"KP": "kp", "KI": "ki", "KD": "kd", "FV": "fv", "FA": "fa"}
-ALL = {**FIELDS, "IL": "integrator_limit", "TL": "torque_limit", "OF": "offset"}
 LARGEST_STEP = 20_000  # counts: ER ends at 32 767, and half as much again must be left
 TRIAL_VALUES = 120  # of a channel, in automatic tuning
 EXCITED_VALUES = 500
@@ -116,25 +115,19 @@ class Excited:
     gains: Gains  # in effect
 
 
-def registers(gains: Gains) -> dict[str, int]:
-    """The five gains as the controller holds them."""
-    return {name: scaled(float(getattr(gains, field))) for name, field in FIELDS.items()}
-
-
-def gains_of(values: Mapping[str, int]) -> Gains:
-    """Gains and what limits them, from registers."""
-    return Gains(**{field: values[name] / ONE for name, field in ALL.items()})
-
-
 def bench(c: Controller, former: Former, wish: Wish, job: Job[Any]) -> Steps[Bench]:
     """What a run needs to know, read inside the guards: the torque limit in effect, TM, the room for arrays."""
     model = ready(c, former.axis)
-    found = yield from exact(c.nonces, [*(f"_{name}{former.axis}" for name in ALL), "_DV" + former.axis, "_TM"],
-                             model.columns)  # fmt: skip
-    values = {name: value or 0 for name, value in zip([*ALL, "DV", "TM"], found, strict=True)}
+    names = [*ALL, "DV", "TE", "TT", "ER"]
+    found = yield from exact(c.nonces, [*(f"_{name}{former.axis}" for name in names), "_TM"], model.columns)
+    values = {name: value or 0 for name, value in zip([*names, "TM"], found, strict=True)}
     inside = gains_of(values)
     before = gains_of({**values, **{name: former.values[name] for name in FIELDS}})
-    return Bench(c, model, former, wish, job, inside, before, values["DV"] != 0, abs(values["TM"]) / ONE, c.clock())
+    bears = carried(before, values["TE"] / ONE, values["TT"] / ONE)
+    return Bench(
+        c, model, former, wish, job, inside, before, values["DV"] != 0, abs(values["TM"]) / ONE, c.clock(),
+        bears, values["ER"] / ONE,
+    )  # fmt: skip
 
 
 @dc.dataclass
@@ -151,6 +144,8 @@ class Bench:
     dual: bool
     tm: float
     began: float
+    bears: float  # V that hold the axis, before anything is tried
+    error_limit: float  # counts, between the guards
     trials: int = 0
     looks: tuple[float, ...] = ()  # the motor command at odd moments after the last record, V
     rest: tuple[float, float] = (0.0, 0.0)  # error (counts) and motor command (V) before the step
@@ -230,7 +225,14 @@ class Bench:
     # ---- inside
 
     def _with_limits(self, gains: Gains) -> Gains:
-        """With the limits that hold inside the guards."""
+        """With the limits that hold inside the guards; NotAllowed where weight would pass the error limit with them."""
+        hangs = sag(gains, self.bears)
+        if hangs + abs(self.wish.step) >= self.error_limit:
+            raise NotAllowed(
+                f"Not started: axis {self.axis} needs {self.bears:.2f} V to stay where it is. With KP {gains.kp:g} it "
+                f"would hang {hangs:.0f} counts below its place, and with the step pass the error limit of "
+                f"{self.error_limit:.0f} counts: its motor would go off. Take more KP."
+            )
         limits = ("integrator_limit", "torque_limit", "offset")
         return dc.replace(gains, **{name: getattr(self.inside, name) for name in limits})
 

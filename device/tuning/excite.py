@@ -68,6 +68,16 @@ def held(gains: Gains) -> float:
     return max(1e-9, VOLTS * 4.0 * gains.kp)
 
 
+def carried(gains: Gains, error: float, volts: float) -> float:
+    """Volts that hold a resting axis: what KP makes of its error (counts); with an integrator what is commanded."""
+    return held(gains) * abs(error) if gains.kp and not gains.ki else abs(volts - gains.offset)
+
+
+def sag(gains: Gains, volts: float) -> float:
+    """Counts that an axis hangs below its place while KP alone carries so many volts; 0 without KP."""
+    return volts / held(gains) if gains.kp else 0.0
+
+
 def excitation(
     gains: Gains,
     travel: int,

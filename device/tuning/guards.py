@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
@@ -23,6 +23,8 @@ from device.lease import LOOK_S
 from device.proof import proved
 from device.quiet import ready, recording, rest, still
 from device.tasks import LinkError, NotAllowed, Steps, Stopped, Wait
+from device.tuning.excite import carried, sag
+from device.tuning.registers import gains_of
 from device.wire import Kind
 
 if TYPE_CHECKING:
@@ -34,6 +36,8 @@ T = TypeVar("T")
 FREE = {"forward": 0b1000, "reverse": 0b0100}  # of _TS: set while it is not active, whatever CN
 LIMITED = (2, 3)  # stop codes: FL or the forward switch, BL or the reverse one
 ERROR_SHARE = 1.5  # of a step: more than that and the loop is not following any more
+SPARE = 2.0  # times what an axis hangs below its place already: it may hang so far with the gains that are tried
+BEARS = 0.9  # of the torque limit: more must not be needed to hold the axis
 
 
 class Fault(LinkError):
@@ -65,6 +69,11 @@ class Guard:
         error = min(largest, math.ceil(abs(step) * ERROR_SHARE) + 10)
         return Guard(axis, max(step, 0) + margin, max(-step, 0) + margin, error, torque, abs(step))
 
+    def bearing(self, counts: float) -> Guard:
+        """For an axis that hangs so far below its place, or would without its integrator."""
+        largest = int(COMMANDS["ER"].high or 0)
+        return replace(self, error=min(largest, self.error + math.ceil(SPARE * counts)), sure=self.sure + round(counts))
+
     @property
     def problem(self) -> str:
         """What is wrong with the numbers, or nothing."""
@@ -79,11 +88,11 @@ def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], 
     """Narrows, runs `body`, puts back; what cannot be put back now stays on disk."""
     words = f"axis {guard.axis} is being tuned. Wait for its end, or cancel it."
     with recording(c, words), taken(c, words):
-        former = yield from _begin(c, guard, folder, now)
+        former, around = yield from _begin(c, guard, folder, now)
         began = c.clock()
 
         def inside() -> Steps[T]:
-            yield from _narrow(c, guard, former)
+            yield from _narrow(c, around, former)
             result = yield from body(former)
             not_stopped(c, began)
             return result
@@ -97,15 +106,26 @@ def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], 
         return (yield from kept(c, former, inside, clear, last=(*PROFILE, *LIMITS)))
 
 
-def _begin(c: Controller, guard: Guard, folder: Path, now: datetime) -> Steps[Former]:
-    """Looks whether it may begin, and reads what the axis is set to."""
+def _begin(c: Controller, guard: Guard, folder: Path, now: datetime) -> Steps[tuple[Former, Guard]]:
+    """Looks whether it may begin, and reads what the axis is set to and what hangs on it."""
     model = ready(c, guard.axis)
     if guard.problem:
         raise NotAllowed(f"Not started: {guard.problem}")
     yield from _free(c, model, guard.axis)
     former = yield from present(c, guard.axis, HELD, folder, now)
-    _inside(guard, former)
-    return former
+    told = yield from exact(c.nonces, [f"_TE{guard.axis}", f"_TT{guard.axis}"], model.columns)
+    error, volts = ((value or 0) / ONE for value in told)
+    gains = gains_of(former.values)
+    bears = carried(gains, error, volts)
+    most = min(guard.torque, former.values["TL"] / ONE)
+    if bears > BEARS * most:
+        raise NotAllowed(
+            f"Not started: axis {guard.axis} needs {bears:.2f} V to stay where it is; a torque limit of {most:.2f} V "
+            "would not hold it. Allow more torque."
+        )
+    around = guard.bearing(max(abs(error), sag(gains, bears)))
+    _inside(around, former)
+    return former, around
 
 
 def _free(c: Controller, model: Model, axis: str) -> Steps[None]:
@@ -133,7 +153,7 @@ def _inside(guard: Guard, former: Former) -> None:
     place, forward, reverse = former.place, former.values["FL"] // ONE, former.values["BL"] // ONE
     if guard.sure >= former.values["ER"] // ONE:
         raise NotAllowed(
-            f"Not started: the step of {guard.sure} counts is not smaller than the error limit ER of "
+            f"Not started: the error at the step, {guard.sure} counts, is not smaller than the error limit ER of "
             f"{former.values['ER'] // ONE} counts; the motor would go off. Take a smaller step, or set a larger ER."
         )
     if place + guard.forward > min(forward, FURTHEST) or place - guard.reverse < max(reverse, -FURTHEST):

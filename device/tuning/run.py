@@ -18,11 +18,13 @@ from device.quiet import ready, still
 from device.setup_transfer import BURN_S
 from device.tasks import NotAllowed, Priority, Steps
 from device.tuning.automatic import VELOCITY
-from device.tuning.bench import ALL, Excited, Found, Measured, Told, Wish, bench, gains_of, registers
+from device.tuning.bench import Excited, Found, Measured, Told, Wish, bench
 from device.tuning.entry import gains_words
+from device.tuning.excite import carried, sag
 from device.tuning.feed import Sweep
 from device.tuning.guards import guarded
 from device.tuning.loop import Gains, period
+from device.tuning.registers import ALL, gains_of, registers
 
 if TYPE_CHECKING:
     from device.api import Controller
@@ -45,6 +47,7 @@ class Present:
     motor_on: bool
     dual: bool
     period: float
+    hangs: float = 0.0  # counts below its place, or without its integrator
 
 
 # ------------------------------------------------------------------------ asked
@@ -134,12 +137,14 @@ def present_steps(c: Controller, axis: str) -> Steps[Present]:
     model = c.model
     if model is None or axis not in model.axes or c.resting():
         raise NotAllowed(c.resting() or f"The gains cannot be read: this controller has no axis {axis}.")
-    names = [*ALL, *LIMITED_BY, "MO", "DV"]
+    names = [*ALL, *LIMITED_BY, "MO", "DV", "TE", "TT"]
     found = yield from exact(c.nonces, [*(f"_{name}{axis}" for name in names), "_TM"], model.columns)
     values = {name: value or 0 for name, value in zip([*names, "TM"], found, strict=True)}
+    gains, error = gains_of(values), values["TE"] / ONE
+    hangs = 0.0 if values["MO"] else max(abs(error), sag(gains, carried(gains, error, values["TT"] / ONE)))
     return Present(
-        gains_of(values), values["RP"] // ONE, values["FL"] // ONE, values["BL"] // ONE, values["ER"] // ONE,
-        values["MO"] == 0, values["DV"] != 0, period(abs(values["TM"]) / ONE),
+        gains, values["RP"] // ONE, values["FL"] // ONE, values["BL"] // ONE, values["ER"] // ONE,
+        values["MO"] == 0, values["DV"] != 0, period(abs(values["TM"]) / ONE), hangs,
     )  # fmt: skip
 
 
@@ -152,4 +157,4 @@ def using(c: Controller, axis: str, gains: Gains) -> Steps[str]:
 
 def _burning(c: Controller, axis: str, gains: Gains) -> Steps[Reply]:
     yield from using(c, axis, gains)
-    return (yield from commands.typed(c, "BN", BURN_S))
+    return (yield from commands.by_hand(c, "BN", BURN_S))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import re
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -84,7 +87,8 @@ def test_stop_from_another_window_and_a_lost_line_leave_nothing_behind_unsaid(st
     stage.until(lambda: asked(stage) is not None, 30)
     question = asked(stage)
     assert question is not None and "Before it: KP 6," in question.words
-    press(question.buttons["Take Control and put them back"])
+    put = next(words for words in question.buttons if words.endswith("back"))  # Control is taken first, where it fell
+    press(question.buttons[put])
     stage.until(lambda: not left_behind(folder))
     assert held(stage.rig) == GAINS and not stage.rig.moving
 
@@ -104,7 +108,9 @@ def test_a_hanging_axis_says_what_its_weight_does_and_another_axis_begins_with_n
     assert rests == pytest.approx(sag, abs=2) and "KI takes such an error away" in panel.result.text()
     assert "did not settle" in panel.results.metrics.text()
     stage.until(lambda: panel.box.words.text().startswith("X moves by"))
-    assert panel.box.free.isChecked()
+    limit = math.ceil(319 * 1.5) + 10 + 2 * sag  # as far as it hangs already, once more: no guard drops it
+    (told,) = re.findall(r"beyond about (\d+) counts of error", panel.box.words.text())
+    assert int(told) == pytest.approx(limit, abs=12)
     for page in (AUTOMATIC, MODEL):  # the drive's mode is not known: it is found out by an excitation
         click(panel.buttons[page])
         stage.go()
