@@ -64,6 +64,7 @@ class UnsavedWork(QDialog):
         for line in lines:
             item = QListWidgetItem(line)
             item.setSizeHint(QSize(0, HEIGHT))
+            item.setToolTip(line)  # a long path is cut
             self.list.addItem(item)
         self.list.setCurrentRow(row)
         if not lines:
