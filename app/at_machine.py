@@ -33,9 +33,15 @@ class AtMachine:
         yield
         self._tuner()
         yield
+        self._dock(self.tuning.panel, RIGHT)
+        yield
         self._scope()
         yield
+        self._dock(self.curves, BOTTOM)
+        yield
         self._values()
+        yield
+        self._dock(self.values, BOTTOM)
         yield
         self._dock(self.event_list, BOTTOM)
         yield
@@ -102,6 +108,7 @@ class AtMachine:
         self.pads.add(self.jog)
         studio.tick.each(self.pads.look)
         self._add(self.jog)
+        yield
         self._dock(self.jog, RIGHT)
         yield
         self._plane()
@@ -154,7 +161,6 @@ class AtMachine:
 
         self.tuning = TunerPart(self._studio, self._studio.data)
         self._add(self.tuning.panel)
-        self._dock(self.tuning.panel, RIGHT)
 
     def _scope(self) -> None:
         from app.scope import Scope
@@ -170,7 +176,6 @@ class AtMachine:
         self.scope.note = studio.recorder.note
         self.recorded.capture_wanted.connect(self._show_capture)
         self._add(self.curves)
-        self._dock(self.curves, BOTTOM)
 
     def _show_capture(self, data: bytes) -> None:
         """Out of a recording."""
@@ -188,4 +193,3 @@ class AtMachine:
         )
         studio.talk.taken.connect(self.variables.hear)
         self._add(self.values)
-        self._dock(self.values, BOTTOM)

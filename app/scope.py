@@ -80,7 +80,6 @@ class Scope(QObject):
     def bring(self, dock: QDockWidget) -> None:
         """In front; the first time in a window of its own, because curves want room."""
         if not self._placed and not dock.isFloating() and dock.height() < ROOM.height():
-            dock.show()
             dock.setFloating(True)
             dock.resize(ROOM.boundedTo(self._window.screen().availableSize() * 0.95))
         self._placed = True

@@ -257,7 +257,10 @@ class TunerPanel(Panel):
         for name in ("Bode plot, gain", "Bode plot, phase"):
             parts.append(BodePart(name, parent=self.results))
             yield
-        self.results.take(step_plot, BodePlot(*parts))
+        bode_plot = BodePlot(*parts)
+        yield
+        self.results.take(step_plot, bode_plot)
+        yield
         self._connect()
         yield
         self._arrange()
