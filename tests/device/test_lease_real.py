@@ -191,7 +191,7 @@ def tried(machine: SimulatorProcess, studio: Studio, way: str, disturbed: list[s
 
 def test_an_axis_that_is_let_go_stands_in_time(machine: tuple[SimulatorProcess, int]) -> None:
     process, baud = machine
-    ways = [way for way in WITHIN if way != "SIGKILL"] * count(2, 100) + ["SIGKILL"] * count(1, 100)
+    ways = [way for way in WITHIN if way != "SIGKILL"] * count(1, 100) + ["SIGKILL"] * count(1, 100)
     worst: dict[str, float] = {}
     disturbed: list[str] = []
     studio = Studio(process, baud)

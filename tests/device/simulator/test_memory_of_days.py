@@ -5,8 +5,6 @@ from __future__ import annotations
 import gc
 import tracemalloc
 
-import pytest
-
 from tests.device.simulator.bench import MS, Bench
 from tests.long import count, record
 
@@ -49,7 +47,6 @@ def live(bench: Bench, seconds: int) -> None:
         simulation.transmit(1)
 
 
-@pytest.mark.alone
 def test_memory_stays_flat() -> None:
     bench = Bench("ssc2")
     bench.load(DAY.strip())

@@ -17,6 +17,7 @@ from app.variables import RecipeUnreadable, read_recipe, recipe_text
 from codegen.difference_values import number_text
 from codegen.twoletter.fixed import ONE, read_decimal, string_value
 from device.values import letters_of
+from tests.long import count
 from tests.stage import Stage, make_studio
 from widgets.values.panel import OFFLINE, VALUE, ValuesPanel
 from widgets.values.typed import assignment
@@ -165,21 +166,22 @@ def test_an_element_is_changed_and_read_alone(stage: Stage) -> None:
 
 
 def test_a_long_array_tells_how_far_it_is_and_another_one_ends_it(stage: Stage) -> None:
-    panel = connected(stage)
-    stage.rig.type("DM LONG[500]", "LONG[499]=3")
+    panel, size = connected(stage), count(120, 500)
+    last = size - 1
+    stage.rig.type(f"DM LONG[{size}]", f"LONG[{last}]=3")
     panel.show_names(["LEN"], ["LONG", "POS"])
     panel.table.setCurrentCell(row_of(panel, "LONG[ ]"), 0)
     stage.until(lambda: panel.elements.rowCount() > 40)
-    assert panel.words_.text() == f"Reading LONG: {panel.elements.rowCount()} of 500…"
-    assert panel.chosen.text() == "LONG, 500 elements"
+    assert panel.words_.text() == f"Reading LONG: {panel.elements.rowCount()} of {size}…"
+    assert panel.chosen.text() == f"LONG, {size} elements"
     panel.table.setCurrentCell(row_of(panel, "POS[ ]"), 0)
     stage.until(lambda: panel.chosen.text() == "POS, 5 elements", 10.0)
     stage.until(lambda: not panel.words_.text(), 5.0)
     assert panel.elements.rowCount() == 5
     panel.table.setCurrentCell(row_of(panel, "LONG[ ]"), 0)
-    stage.until(lambda: panel.elements.rowCount() == 500, 60.0)
+    stage.until(lambda: panel.elements.rowCount() == size, 60.0)
     stage.until(lambda: not panel.words_.text(), 5.0)
-    assert [panel.elements.item(row, 1).text() for row in (0, 498, 499)] == ["0", "0", "3"]
+    assert [panel.elements.item(row, 1).text() for row in (0, last - 1, last)] == ["0", "0", "3"]
 
 
 def test_arrays_are_part_of_a_recipe(stage: Stage, tmp_path: Path) -> None:
