@@ -299,7 +299,7 @@ class Tuner(QObject):
         self.model.look()
         job = self.job
         if job is not None and not job.future.done() and job.phase not in ("waiting", "") and not job.cancelled:
-            share = f", {job.fraction:.0%}" if job.total else ""
+            share = f", {100 * job.fraction:.0f} %" if job.total else ""
             self._panel.show_result(f"{self._panel.running.rstrip('…')}: {job.phase}{share}…")
         state = self._connection.controller.state
         unread = self._joined and self._present is None and not self._reading

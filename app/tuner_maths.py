@@ -11,7 +11,7 @@ from device.tuning.design import Design, Refusal, Target, design, propose
 from device.tuning.excite import NotIdentified
 from device.tuning.identify import Estimate, identify
 from device.tuning.loop import Bode, Gains, Margins, bode, margins
-from device.tuning.metrics import AT_LIMIT, Response
+from device.tuning.metrics import AT_LIMIT, Response, percent
 from device.tuning.predict import predict, step
 
 T = TypeVar("T")
@@ -116,7 +116,7 @@ def estimate_words(estimate: Estimate) -> str:
         parts.append(f"first resonance {told('frequency', plant.resonance.frequency, 'Hz')}")
     mode = " It answers like a drive in velocity mode." if plant.velocity_mode else ""
     notes = f" {' '.join(estimate.notes)}" if estimate.notes else ""
-    return f"{', '.join(parts)}. {estimate.fit:.0%} of the motion is explained.{mode}{notes}"
+    return f"{', '.join(parts)}. {percent(estimate.fit)} of the motion is explained.{mode}{notes}"
 
 
 def with_spread(value: float, spread: float) -> str:

@@ -101,6 +101,11 @@ def measure(response: Response, torque_limit: float) -> Metrics | str:
     )
 
 
+def percent(part: float) -> str:
+    """`24 %`."""
+    return f"{100.0 * part:.0f} %"
+
+
 def measured_words(metrics: Metrics, swings: bool) -> str:
     """The response in one sentence."""
     if swings:
@@ -112,8 +117,9 @@ def measured_words(metrics: Metrics, swings: bool) -> str:
         )
     if metrics.settling_time is None:
         return "The response did not settle within the record."
-    saturated = f" The torque was at its limit for {metrics.saturated:.0%} of it." if metrics.saturated > 0.01 else ""
+    torque = percent(metrics.saturated)
+    saturated = f" The torque was at its limit for {torque} of it." if metrics.saturated > 0.01 else ""
     return (
-        f"Settled within {metrics.settling_time * 1000:.0f} ms, overshoot {metrics.overshoot:.0%}, "
+        f"Settled within {metrics.settling_time * 1000:.0f} ms, overshoot {percent(metrics.overshoot)}, "
         f"{metrics.steady_error:.3g} counts of error left.{saturated}"
     )

@@ -155,7 +155,7 @@ def _logbook(stage: Stage, panel: TunerPanel, folder: Path) -> None:
         for told in (
             f"Run {entry.number}, axis X: Manual",
             f"Step of 0.5008 in (319 counts) with {gains_words(entry.gains)}; torque limit 9.998 V.",  # 319 / 637
-            f"overshoot {metrics.overshoot:.0%}, settled in {metrics.settling_time * 1000:.0f} ms",
+            f"overshoot {100 * metrics.overshoot:.0f} %, settled in {metrics.settling_time * 1000:.0f} ms",
             f"steady error {metrics.steady_error:.1f} counts",
             note,
         ):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
@@ -25,6 +25,7 @@ from widgets.panel import set_text, show_role
 from widgets.tuner.gains import GainsBox
 
 HERTZ = 2 * math.pi
+ROW = 30  # px of a run: its box to tick fits
 NO_RUNS = "No run is kept yet for this machine. Every step that is measured comes here by itself."
 AUTOMATIC = (
     "Moves the axis to and fro by the step and raises KD and KP while it tests the response, then KI. It stops where "
@@ -272,6 +273,7 @@ class LogbookPage(QWidget):
         for entry in reversed(self._entries):
             item = QListWidgetItem(row_words(entry))
             item.setData(Qt.ItemDataRole.UserRole, entry.number)
+            item.setSizeHint(QSize(0, ROW))
             item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
             item.setCheckState(Qt.CheckState.Checked if entry.number in ticked else Qt.CheckState.Unchecked)
             self.runs.addItem(item)

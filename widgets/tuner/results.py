@@ -72,11 +72,13 @@ def metrics_words(metrics: Metrics | None) -> str:
     """The numbers of a response in one line."""
     if metrics is None:
         return ""
+    from device.tuning.metrics import percent
+
     settled = "did not settle" if metrics.settling_time is None else f"settled in {metrics.settling_time * 1000:.0f} ms"
-    part = f"{metrics.saturated:.0%}" if metrics.saturated >= 0.005 else "less than 1%"
+    part = percent(metrics.saturated) if metrics.saturated >= 0.005 else "less than 1 %"
     torque = f", ▲ torque at its limit {part} of the time" if metrics.saturated > 0 else ""
     return (
-        f"Rise {_rise(metrics)}, overshoot {metrics.overshoot:.0%}, {settled}, "
+        f"Rise {_rise(metrics)}, overshoot {percent(metrics.overshoot)}, {settled}, "
         f"steady error {metrics.steady_error:.1f} counts, largest {metrics.peak_error:.0f}{torque}"
     )
 
