@@ -33,10 +33,14 @@ PLACES = (
     r"/root" + r"/",
 )
 FORBIDDEN = re.compile("|".join((*WORDS, *PLACES)), re.IGNORECASE)
+# Finds at least as much in small letters, many times faster: where it finds nothing, nothing is forbidden.
+LIKELY = re.compile("|".join(each.removeprefix(r"\b") for each in (*WORDS, *PLACES)).lower())
 
 
 def offences(text: str) -> list[tuple[int, str]]:
     """Line and text of every forbidden word."""
+    if not LIKELY.search(text.lower()):
+        return []
     return [
         (number, match.group()) for number, line in enumerate(text.splitlines(), 1) if (match := FORBIDDEN.search(line))
     ]

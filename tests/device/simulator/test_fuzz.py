@@ -17,7 +17,7 @@ from tests.device.simulator.bench import Bench
 from tests.long import count, record
 
 CHUNK = 2_500
-CHUNKS = count(60_000, 1_000_000) // CHUNK
+CHUNKS = count(30_000, 1_000_000) // CHUNK
 NAMED = ("ssc1", "ssc2", "ssc3", "ssc4", "dmc1412", "dmc1414")
 SLOW = frozenset({"RS", "BN", "BV", "BP", "BS"})  # BS turns the motor there and back (dmc-1412-1414.txt l.730)
 # A trippoint typed at the port holds the port until it is over, AI or AM of a jog for ever (dmc-1412-1414.txt l.988).
