@@ -7,6 +7,7 @@ import time
 import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -128,7 +129,7 @@ def test_nothing_is_sent_and_there_is_nothing_to_stop(stage: Stage) -> None:
     assert len(rig.loopback.written) == closed and stage.controller.stop_state is StopState.NO_LINK
 
 
-def test_the_slider_the_list_and_the_speed_by_keys(stage: Stage) -> None:
+def test_the_slider_the_list_and_the_speed_by_keys(stage: Stage, qtlog: Any) -> None:
     recorded(stage)
     replay(stage)
     panel = panel_of(stage)
@@ -166,6 +167,7 @@ def test_the_slider_the_list_and_the_speed_by_keys(stage: Stage) -> None:
     stage.later(60)  # it stands still, so nothing gets old
     stage.go()
     assert stage.studio.display.words() == shown and "ago" not in shown
+    assert not [each.message for each in qtlog.records if "QTableWidget" in each.message]
 
 
 def test_what_is_done_is_noted_in_words(stage: Stage) -> None:

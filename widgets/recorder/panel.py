@@ -161,10 +161,12 @@ class RecorderPanel(Panel):
         for number, each in enumerate(self.rows):
             stamp = time.strftime("%d %b %H:%M:%S", self._local(each.at))
             for column, text in enumerate((stamp, each.who, each.text)):
-                item = self.table.item(number, column) or QTableWidgetItem()
+                item = self.table.item(number, column)
+                if item is None:
+                    item = QTableWidgetItem()
+                    self.table.setItem(number, column, item)
                 item.setText(text)
                 item.setToolTip(text)
-                self.table.setItem(number, column, item)
 
     def _go_to(self, row: Happening) -> None:
         """A row that was chosen: from there on, and what was captured there."""
