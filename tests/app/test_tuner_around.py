@@ -11,6 +11,7 @@ from PySide6.QtTest import QTest
 
 from device.former import left_behind
 from device.simulator.plant import Plant
+from device.tuning.logbook import Logbook
 from tests.app.spot import press
 from tests.app.test_tuner import GAINS, asked, click, held, run, tuner, typed, worked
 from tests.device.tuning.test_logbook import RUN
@@ -35,13 +36,42 @@ def place(stage: Stage) -> float:
     return found
 
 
-@pytest.mark.parametrize("way", ["exit", "disconnect"])
-def test_who_leaves_in_the_middle_is_asked_and_the_axis_is_set_back_first(stage: Stage, way: str) -> None:
+@pytest.mark.parametrize("way", ["exit", pytest.param("disconnect", marks=pytest.mark.long)])
+def test_stop_a_lost_line_and_leaving_in_the_middle_leave_nothing_behind_unsaid(stage: Stage, way: str) -> None:
     studio = stage.studio
     panel = tuner(stage, "machine")
+    rig, folder = stage.rig, studio.at_machine.tuning.tuner.folder
     typed(panel.manual.gains.fields["KP"], "11")
     stepping(stage, panel)
-    rig, folder = stage.rig, studio.at_machine.tuning.tuner.folder
+    studio.setup.show()
+    stage.go()
+    QTest.keyClick(studio.setup.window, Qt.Key.Key_F12)
+    stage.until(lambda: not panel.running)
+    assert "former values of axis X are back" in panel.result.text() and held(rig) == GAINS
+    studio.setup.window.close()
+    stepping(stage, panel)
+    rig.cut()
+    stage.until(lambda: not panel.running)
+    (former,) = left_behind(folder)
+    assert former.gains() == "KP 6, KI 0, KD 64" and rig.simulation.state()["axes"]["X"]["motor_on"]
+    rig.loopback.unplugged = False
+    stage.until(lambda: asked(stage) is not None, 30)
+    question = asked(stage)
+    assert question is not None and "Before it: KP 6," in question.words
+    put = next(words for words in question.buttons if words.endswith("back"))  # Control is taken first, where it fell
+    press(question.buttons[put])
+    stage.until(lambda: not left_behind(folder))
+    assert held(rig) == GAINS and not rig.moving
+    stage.controller.take_control()
+    stage.go()
+    _leave(stage, panel, way)
+    assert held(rig) == GAINS and not rig.moving and left_behind(folder) == ()
+
+
+def _leave(stage: Stage, panel: TunerPanel, way: str) -> None:
+    """In the middle of a step: it is cancelled first, which puts back."""
+    studio, rig = stage.studio, stage.rig
+    stepping(stage, panel)
     studio.actions[way].trigger()
     stage.until(lambda: asked(stage) is not None)
     question = asked(stage)
@@ -49,48 +79,48 @@ def test_who_leaves_in_the_middle_is_asked_and_the_axis_is_set_back_first(stage:
     assert "Leave it running" not in question.buttons  # nothing of it goes on without the studio
     press(question.buttons["Cancel it first"])
     stage.until(lambda: not studio.window.isVisible() if way == "exit" else rig.closed)
-    assert held(rig) == GAINS and not rig.moving and left_behind(folder) == ()
 
 
-def test_a_run_goes_on_and_ends_well_behind_another_panel(stage: Stage) -> None:
-    panel = tuner(stage)
-    typed(panel.manual.gains.fields["KP"], "11")
+def test_a_run_ends_well_behind_another_panel_and_is_drawn_whatever_was_looked_at(stage: Stage) -> None:
+    panel, book = tuner(stage), stage.studio.at_machine.tuning.book
+    typed(panel.manual.gains.fields["KP"], "10")
     stepping(stage, panel)
     stage.studio.actions["layout_program"].trigger()
     stage.go()
     assert not panel.isVisible() and stage.studio.run.doing == "Step of X"
     stage.until(lambda: not stage.studio.run.doing)
-    assert held(stage.rig) == GAINS and not stage.rig.moving
-    assert len(stage.studio.at_machine.tuning.book.book.entries) == 1
+    assert held(stage.rig) == GAINS and not stage.rig.moving and len(book.book.entries) == 1
     stage.studio.actions["tune"].trigger()
     stage.go()
-    assert panel.results.metrics.text().startswith("Rise") and panel.result.text()
+    first = panel.results.metrics.text()
+    assert first.startswith("Rise") and panel.result.text()
+    click(panel.buttons[LOGBOOK])
+    panel.logbook.runs.setFocus()
+    QTest.keyClick(panel.logbook.runs, Qt.Key.Key_Down)
+    assert panel.logbook.chosen == 1 and panel.step_plot is not None
+    assert panel.step_plot.names == ("1: KP 10, KI 0, KD 64",)
+    click(panel.buttons[MANUAL])
+    typed(panel.manual.gains.fields["KP"], "20")
+    run(stage, panel)
+    assert panel.step_plot.names[-1] == "KP 20, KI 0, KD 64" and panel.results.metrics.text() != first
+    click(panel.buttons[LOGBOOK])
+    assert panel.logbook.chosen == 1 and panel.step_plot.names == ("1: KP 10, KI 0, KD 64",)
+    assert panel.results.metrics.text() == first
+    _not_written(stage)
 
 
-def test_stop_from_another_window_and_a_lost_line_leave_nothing_behind_unsaid(stage: Stage) -> None:
-    panel = tuner(stage, "machine")
-    folder = stage.studio.at_machine.tuning.tuner.folder
-    typed(panel.manual.gains.fields["KP"], "11")
-    stepping(stage, panel)
-    stage.studio.setup.show()
-    stage.go()
-    QTest.keyClick(stage.studio.setup.window, Qt.Key.Key_F12)
-    stage.until(lambda: not panel.running)
-    assert "former values of axis X are back" in panel.result.text() and held(stage.rig) == GAINS
-    stage.studio.setup.window.close()
-    stepping(stage, panel)
-    stage.rig.cut()
-    stage.until(lambda: not panel.running)
-    (former,) = left_behind(folder)
-    assert former.gains() == "KP 6, KI 0, KD 64" and stage.rig.simulation.state()["axes"]["X"]["motor_on"]
-    stage.rig.loopback.unplugged = False
-    stage.until(lambda: asked(stage) is not None, 30)
-    question = asked(stage)
-    assert question is not None and "Before it: KP 6," in question.words
-    put = next(words for words in question.buttons if words.endswith("back"))  # Control is taken first, where it fell
-    press(question.buttons[put])
-    stage.until(lambda: not left_behind(folder))
-    assert held(stage.rig) == GAINS and not stage.rig.moving
+def _not_written(stage: Stage) -> None:
+    """Where the logbook was stands something else now."""
+    book = stage.studio.at_machine.tuning.book
+    file = book.book.file
+    worked(stage, lambda: len(Logbook(file).entries) == 2)
+    file.unlink()
+    file.mkdir()
+    said: list[str] = []
+    book.said.connect(said.append)
+    book.add(RUN)
+    worked(stage, lambda: said)
+    assert said[0].startswith(f"The logbook {file.name} could not be written, its newest line is lost")
 
 
 def test_a_hanging_axis_says_what_its_weight_does_and_another_axis_begins_with_nothing(stage: Stage) -> None:
@@ -121,34 +151,3 @@ def test_a_hanging_axis_says_what_its_weight_does_and_another_axis_begins_with_n
     QTest.keyClick(panel.axes, Qt.Key.Key_Down)
     stage.go()
     assert panel.axis == "Y" and panel.step_plot.names == () and panel.results.metrics.text() == ""
-
-
-def test_a_run_is_drawn_whatever_was_looked_at_in_the_logbook(stage: Stage) -> None:
-    panel = tuner(stage)
-    typed(panel.manual.gains.fields["KP"], "10")
-    run(stage, panel)
-    click(panel.buttons[LOGBOOK])
-    panel.logbook.runs.setFocus()
-    QTest.keyClick(panel.logbook.runs, Qt.Key.Key_Down)
-    assert panel.logbook.chosen == 1 and panel.step_plot is not None
-    assert panel.step_plot.names == ("1: KP 10, KI 0, KD 64",)
-    first = panel.results.metrics.text()
-    click(panel.buttons[MANUAL])
-    typed(panel.manual.gains.fields["KP"], "20")
-    run(stage, panel)
-    assert panel.step_plot.names[-1] == "KP 20, KI 0, KD 64" and panel.results.metrics.text() != first
-    click(panel.buttons[LOGBOOK])
-    assert panel.logbook.chosen == 1 and panel.step_plot.names == ("1: KP 10, KI 0, KD 64",)
-    assert panel.results.metrics.text() == first
-
-
-def test_a_logbook_that_cannot_be_written_is_said(stage: Stage) -> None:
-    tuner(stage)
-    book = stage.studio.at_machine.tuning.book
-    file = book.book.file
-    file.mkdir(parents=True)  # where the file should be stands something else
-    said: list[str] = []
-    book.said.connect(said.append)
-    book.add(RUN)
-    worked(stage, lambda: said)
-    assert said[0].startswith(f"The logbook {file.name} could not be written, its newest line is lost")
