@@ -24,6 +24,7 @@ LANES = ("position", "speed", "acceleration")
 DIMENSIONS = (Dimension.POSITION, Dimension.SPEED, Dimension.ACCELERATION)
 LEFT, RIGHT = 58, 10  # px beside the curves, for the numbers of the scale
 DOT = 3.5
+LIFT = 5  # px that the name of the positions stands above their highest dot
 MOST_DOTS = 130  # more points are not drawn one by one
 REACH = 9.0  # px from a point at which it is taken hold of
 
@@ -109,7 +110,7 @@ class CurvePicture(Canvas):
         """The room of a lane's curve."""
         whole = self.height() - self._caption()
         top = sum(PARTS[:lane]) * whole
-        above = self.fontMetrics().height() + 1  # the name of the lane
+        above = self.fontMetrics().height() + 1 + (0 if lane else LIFT)  # the name of the lane
         return QRectF(LEFT, top + above + 2, self.width() - LEFT - RIGHT, PARTS[lane] * whole - above - 9)
 
     def _at(self, lane: int) -> Callable[[float, float], QPointF]:
@@ -238,7 +239,7 @@ class CurvePicture(Canvas):
             painter.drawText(QRectF(2, y - height / 2, LEFT - 8, height), right, f"{value:.4g}")
         units = dict.fromkeys(self._unit(lane, each.letter) for each in self.courses)
         name = f"{LANES[lane]}, {' / '.join(units)}"
-        above = QRectF(room.left(), room.top() - height - 2, room.width(), height)
+        above = QRectF(room.left(), room.top() - height - 2 - (0 if lane else LIFT), room.width(), height)
         painter.drawText(above, int(Qt.AlignmentFlag.AlignRight), name)
 
     def _curve(self, painter: QPainter, lane: int, number: int) -> None:

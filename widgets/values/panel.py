@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
+    QSizePolicy,
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
@@ -322,9 +323,10 @@ class ValuesPanel(Panel):
         column = QVBoxLayout(self._inside)
         column.setContentsMargins(0, 0, 0, 0)
         self.new.setAccessibleName("Name of a variable or array")
-        self.new.setPlaceholderText("Name, or NAME[]")
+        self.new.setPlaceholderText("Name")
         self.new.setFixedWidth(NAME_WIDTH)
-        self.new.setToolTip("A variable or array that neither the controller nor its program names; kept for this one")
+        self.new.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.new.setToolTip("A variable, or an array as NAME[], that neither the controller nor its program names")
         self.forget.setShortcut(QKeySequence.StandardKey.Delete)
         self.forget.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
         self.table.addAction(self.forget)
