@@ -94,7 +94,7 @@ def test_the_begin_of_a_move_is_found_to_the_element(channel: Channel) -> None:
     rig = moving()
     plan = Plan((POSITION, channel), 1, 280, Trigger(When.MOTION, axis="X", pre=0.4))
     job = capture(rig.controller, plan)
-    rig.until(lambda: job.phase.startswith("waiting"))
+    rig.until(lambda: job.phase.startswith("waiting:"))
     rig.run(0.7)
     rig.type(MOVE)
     found = done(rig, job)
@@ -114,7 +114,7 @@ def test_a_level_and_an_input_are_found_to_the_element() -> None:
         Trigger(When.INPUT, number=3, rising=True, pre=0.5),
     ):
         job = capture(rig.controller, Plan((POSITION, INPUTS), 1, 280, trigger))
-        rig.until(lambda job=job: job.phase.startswith("waiting"))
+        rig.until(lambda job=job: job.phase.startswith("waiting:"))
         rig.run(0.4)
         rig.type(MOVE)
         rig.run(0.3)
@@ -133,7 +133,7 @@ def test_a_level_and_an_input_are_found_to_the_element() -> None:
 def test_where_no_channel_shows_the_trigger_it_says_how_unsure_it_is() -> None:
     rig = moving()
     job = capture(rig.controller, Plan((POSITION,), 1, 300, Trigger(When.MOTION, axis="X", pre=0.4)))
-    rig.until(lambda: job.phase.startswith("waiting"))
+    rig.until(lambda: job.phase.startswith("waiting:"))
     rig.run(0.5)
     rig.type(MOVE)
     found = done(rig, job)
@@ -250,7 +250,8 @@ def found_nothing() -> Capture:
 def test_stop_ends_the_motion_and_not_the_capture() -> None:
     rig = moving()
     job = capture(rig.controller, Plan((POSITION, COMMANDED), 4, 100, go="JG 5000;BG X"))
-    rig.run(0.5)
+    rig.until(lambda: rig.moving)
+    rig.run(0.4)
     rig.controller.stop()
     found = done(rig, job)
     assert found.complete and not rig.moving

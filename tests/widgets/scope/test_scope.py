@@ -30,7 +30,7 @@ def test_a_move_is_captured_by_keys_and_mouse(stage: Stage) -> None:
     choose(body.choices.begin, "Motion begins")
     assert "because Commanded position X is recorded" in body.choices.hint.text()
     click(body.bar.capture)
-    stage.until(lambda: body.bar.words.text().startswith("Waiting"))
+    stage.until(lambda: body.bar.words.text().startswith("Waiting:"))
     stage.go(25)
     stage.rig.controller.ask("PR 4000;BG X")
     stage.until(lambda: "left" in body.bar.words.text())
