@@ -134,8 +134,8 @@ class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
         """What the two directions are, with their units as text: 12 mm stays 12 mm, never 0.012 m."""
         for side, words in (("bottom", bottom), ("left", left)):
             axis = self.getAxis(side)
-            axis.enableAutoSIPrefix(False)
-            axis.setLabel(words)
+            axis.setLabel(words, siPrefixEnableRanges=())
+            axis.enableAutoSIPrefix(False)  # keeps the scale of this moment, which the line above has made 1
 
     def fit(self) -> None:
         """Everything is shown, and followed again."""
