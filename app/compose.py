@@ -15,6 +15,7 @@ from app.actions import MAIN, RUN, Actions
 from app.connection import Connection, Connector
 from app.crash import CrashHook
 from app.desk import Desk
+from app.docks import settle
 from app.doctor_desk import DoctorDesk, examined
 from app.editor import Editor
 from app.files import Files
@@ -311,6 +312,7 @@ class Studio(QObject):
         for panel in self.panels:
             panel.attach(controller)
         self.follow.look()
+        settle()
 
     def _document_changed(self, old: Document | None, new: Document) -> None:
         for panel in self.panels:

@@ -60,8 +60,9 @@ class StepPlot(QWidget):
 
     def show_curves(self, curves: Sequence[Curve], torque_limit: float) -> None:
         """The responses, the last one in front; torque at its limit is marked."""
-        self._curves, self._limit = tuple(curves), torque_limit
-        self.draw()
+        before, self._curves, self._limit = self._curves, tuple(curves), torque_limit
+        if before or self._curves:
+            self.draw()
 
     def show_error(self, on: bool) -> None:
         """The position error in counts in place of the positions."""
