@@ -77,7 +77,7 @@ def group_of(channel: Channel) -> str:
     row = channel.row
     if row.dimension == "position":
         return "Position error" if row.name == "error" else "Position"
-    return "Volts" if row.dimension == "voltage" else row.label
+    return "Voltage" if row.dimension == "voltage" else row.label
 
 
 def derive(capture: Capture, kind: Derived, axis: str) -> Curve | None:
