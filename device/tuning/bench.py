@@ -25,8 +25,7 @@ from device.lease import at
 from device.proof import proved
 from device.quiet import ready
 from device.tasks import LinkError, NotAllowed, Steps, Wait
-from device.tuning.automatic import Chosen, Search, search, vibrates
-from device.tuning.automatic import seen as seen_of
+from device.tuning.automatic import Chosen, Search, search, seen, vibrates
 from device.tuning.excite import Excitation, NotIdentified, carried, excitation, held, refused, sag
 from device.tuning.feed import Sweep
 from device.tuning.guards import Cancelled, Fault, Guard, not_stopped, watch
@@ -190,10 +189,10 @@ class Bench:
             return Found(None, heavy, ())
         start = self.former_gains if self.former_gains.kd >= 1 else dc.replace(self.former_gains, kd=64.0, kp=6.0)
         searching: Search = search(start, self.dual)
-        counts, seen = wish.step, None
+        counts, last = wish.step, None
         while True:
             try:
-                trial = next(searching) if seen is None else searching.send(seen)
+                trial = next(searching) if last is None else searching.send(last)
             except StopIteration as end:
                 chosen: Chosen = end.value
                 return Found(chosen.gains, chosen.words, tuple(trials))
@@ -204,7 +203,7 @@ class Bench:
             trials.append(measured)
             tell(measured, trial.why)
             counts = -counts  # back and forth (ssc-tol-o-motion.txt l.2857)
-            seen = seen_of(measured.response, measured.gains, measured.vibrates)
+            last = seen(measured.response, measured.gains, measured.vibrates)
 
     def excite(self, gains: Gains) -> Steps[Excited]:
         """Jumps to and fro within the travel while error and torque are recorded."""
