@@ -113,7 +113,8 @@ def run_everyday(chosen: list[str], totals: Totals, checks: Future[Checked]) -> 
     environment = dict(os.environ, QT_QPA_PLATFORM="offscreen")
     environment.pop("TWOLETTER_LONG", None)
     for place, (title, marks, number) in enumerate(PARTS):
-        run_tests(title, [*workers(number), "-m", marks, *chosen], environment, totals)
+        compiled = {} if marks == "alone" else {"TEST_COMPILED": "1"}  # tests/rig.py
+        run_tests(title, [*workers(number), "-m", marks, *chosen], environment | compiled, totals)
         if place == 0:
             tell_checks(checks, totals)
 

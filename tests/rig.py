@@ -19,6 +19,8 @@ from device.transport.loopback import Loopback
 
 T = TypeVar("T")
 LINE = LineSettings(baud=int(os.environ.get("TEST_BAUD", "19200")))  # tests/app/test_other_speeds.py asks for others
+# the compiled loop once it is worth its loading, or never: loading it would be seen where time is measured
+COMPILED = None if os.environ.get("TEST_COMPILED") else False
 ROUND_TICKS = 1_024_000 // 20  # time that passes in a round without a line
 
 
@@ -53,7 +55,7 @@ class Rig:
         tap: Callable[[Transport], Transport] = lambda line: line,
         **more: Any,
     ) -> None:
-        self.simulation = Simulation(model_named(model), plants, baud=line.baud)
+        self.simulation = Simulation(model_named(model), plants, baud=line.baud, compiled=COMPILED)
         self.began, self.openable, self._tap = began, openable, tap
         if revision:
             self.simulation.unit.revision = lambda: revision  # type: ignore[method-assign]
