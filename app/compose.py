@@ -30,6 +30,7 @@ from app.live_values import LiveValuesReader
 from app.loading import Loading
 from app.options import Options
 from app.right_machine import RightMachine
+from app.rubbish import Rubbish
 from app.run import Run
 from app.search import Candidate, Search
 from app.session import Session
@@ -82,6 +83,7 @@ class Studio(QObject):
         recorder: Recorder | None = None,
     ) -> None:
         super().__init__()
+        self.rubbish = Rubbish()
         self.recorder = recorder or Recorder(data / RECORDINGS, clock=clock, threaded=False)
         self.settings = settings
         self.theme = Theme(application, Choice(settings.get("theme")))
@@ -156,6 +158,7 @@ class Studio(QObject):
         self.crash.uninstall()
         self.stop_key.remove()
         self.theme.release()
+        self.rubbish.end()
 
     def _handlers(self) -> dict[str, Callable[[], None]]:
         desk, run, start, late = self.desk, self.run, self.start, self.late
@@ -223,6 +226,7 @@ class Studio(QObject):
             self.search.look,
             self.start.echo.look,
             self.stop_key.stay_first,
+            self.rubbish.look,
         ):
             self.tick.each(look)
         self._join_window()

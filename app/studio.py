@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import sys
 from functools import partial
 from pathlib import Path
@@ -48,10 +47,8 @@ def run_studio(file: Path | None, connect: str = "ask") -> int:
 
 def begin(studio: Studio, file: Path | None, connect: str) -> None:
     """What the command line asked for, once the window is there."""
-    if not gc.isenabled():  # as `app.__main__` left it: what is loaded by now is no garbage
-        gc.freeze()
-        gc.enable()
-        QTimer.singleShot(SETTLED_MS, gc.freeze)  # nor what the first connection loads: STOP never waits for a search
+    studio.rubbish.keep()  # what is loaded by now is no garbage
+    QTimer.singleShot(SETTLED_MS, studio.rubbish.keep)  # nor what the first connection loads: STOP waits for no search
     studio.loading.begin(LOADING_MS)
     studio.program.tree.setFocus()
     if file is not None:

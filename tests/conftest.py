@@ -11,7 +11,10 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 import pytest
 from hypothesis import HealthCheck, settings
 
+from app.rubbish import Rubbish
 from tests.long import is_long
+
+ROOT = Path(__file__).parent
 
 # The everyday run draws the same examples every time, so that it says the same of the same code; the long run searches.
 settings.register_profile(
@@ -45,6 +48,17 @@ def pytest_collection_finish() -> None:
     """What was collected stays to the end: the garbage collector need not look at it again and again."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Garbage of the window is looked for in its own thread, as in the program; elsewhere Python does as it likes."""
+    if item.path.relative_to(ROOT).parts[0] in ("app", "widgets"):
+        gc.disable()
+        Rubbish().look()
+    elif not gc.isenabled():
+        gc.collect()
+        gc.enable()
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import math
 import time
 from collections.abc import Callable
@@ -66,12 +65,10 @@ class Ticks:
         self._timed(name, self.stage.studio.tick.once)
 
     def _timed(self, name: str, call: Callable[[], object]) -> None:
-        gc.disable()  # what other tests left is not looked through here
         before = time.thread_time()
         call()
         QApplication.processEvents()
         self.worst[name] = max(self.worst.get(name, 0.0), 1000 * (time.thread_time() - before))
-        gc.enable()
 
 
 def queued_ms() -> float:

@@ -60,7 +60,6 @@ def test_model_identify_drag_predict_and_measure(stage: Stage) -> None:
         predicted.actual,
     )
     assert np.sqrt(np.mean((there - measured.actual) ** 2)) < 0.06 * entry.step
-    gc.enable()
     slowest.sort()
     assert slowest[-2] < TICK_CPU_S, slowest[-5:]  # CPU time swings on a busy computer: one may be disturbed
     record(
@@ -182,11 +181,10 @@ def test_a_drive_in_velocity_mode_is_recognised_and_refused(stage: Stage) -> Non
 
 
 def watched_ticks(stage: Stage) -> list[float]:
-    """CPU seconds of this thread for every tick from now on; collecting the garbage of other tests is not counted."""
+    """CPU seconds of this thread for every tick from now on; the garbage of other tests is collected before."""
     taken = [0.0]
     once = stage.studio.tick.once
     gc.collect()
-    gc.disable()
 
     def timed() -> None:
         began = time.thread_time()
