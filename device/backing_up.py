@@ -24,7 +24,7 @@ from device.backup import (
     untold,
 )
 from device.backup_words import names
-from device.download import Download, Downloaded, Job, upload_steps
+from device.download import Download, Downloaded, Job, held_program
 from device.identify import fence
 from device.proof import proved
 from device.tasks import LinkError, LinkLost, NotAllowed, Send, Steps, data_line
@@ -128,7 +128,7 @@ def backup_steps(
     model = (yield from quiet(c, "Not backed up")) if not running else _readable(c, "Not compared")
     quick = math.isfinite(budget_s)
     _ongoing(job, "program", 0, 3)
-    program = yield from upload_steps(c.nonces, None)
+    program = yield from held_program(c.waiting, c.nonces)
     c.set_listing(program)
     end = c.clock() + budget_s  # the download would have read the program anyway
     names, array_names = yield from listed(c, model, program)

@@ -12,7 +12,7 @@ from codegen.twoletter.parse import parse
 from device.backup import names_in
 from device.capture import Plan, most, too_short
 from device.capture_talk import NOT, Talk
-from device.download import upload_steps
+from device.download import held_program
 from device.tasks import LinkError, NotAllowed, Steps
 from device.wire import Shape
 
@@ -137,7 +137,7 @@ class Room:
     def _listing(self) -> Steps[str]:
         """The program in the controller; read where it is not known."""
         if self._c.listing is None:
-            self._c.set_listing((yield from upload_steps(self._c.nonces, None)))
+            self._c.set_listing((yield from held_program(self._c.waiting, self._c.nonces)))
         return self._c.listing or ""
 
     def clean(self) -> Steps[None]:

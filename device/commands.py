@@ -15,7 +15,7 @@ from codegen.twoletter.slow_mark import BURNS, FULL, percent_of
 from device.asking import Listing
 from device.backup import parameter_names
 from device.door import LISTS, choose, only_reads
-from device.download import upload_steps
+from device.download import held_program
 from device.identify import fence, read_once
 from device.proof import proved, tells, with_proof
 from device.stop import StopState
@@ -221,7 +221,7 @@ def halt(controller: Controller) -> Steps[Reply]:
 def _before_start(controller: Controller) -> Steps[int]:
     """Before a program starts: its listing (whether it asks decides what may be sent), and the error code there is."""
     if controller.waiting.listing is None:
-        text = yield from upload_steps(controller.nonces, None)
+        text = yield from held_program(controller.waiting, controller.nonces)
         controller.waiting.listing = Listing(text)
     if controller.waiting.position == frozenset():
         return 0  # nothing runs: no program's text can come in between

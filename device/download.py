@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from codegen.models import Model
-from device.asking import Waiting
+from device.asking import Listing, Waiting
 from device.door import LEAVE
 from device.identify import fence, read_once
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, Stopped, Wait
@@ -23,12 +23,18 @@ SETTLE_S = 0.05  # a refusal's way here at least: adapters keep bytes up to 16 m
 BEHIND_S = 0.02  # a refusal follows the proof on its line at once: adapters may keep it 16 ms, the controller 0.5
 LONGEST_SETTLE_S = 0.5  # over slow networks
 TRIES = 3  # to end a download that went wrong
+READINGS = 8  # of a program that may print meanwhile
+UNEVEN_S = 0.007  # between two of them, once, twice, three times
 MARGIN_S = 0.02  # beyond the way there and back that a read took just before
 FENCE_BYTES = len(framed("xx", [("_TC", Shape(3, 0))])) + 1 + 11  # there and back
 
 
 class DownloadFailed(LinkError):
     """The program is not, or not surely, in the controller; the text is the sentence to show."""
+
+
+class Unsteady(LinkError):
+    """No two readings of the program in the controller were the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -303,6 +309,10 @@ def refusal(code: int, lines: Sequence[str], model: Model | None) -> str:
 
 def upload_steps(nonces: Iterator[str], job: Job[str] | None) -> Steps[str]:
     """The program in the controller; raises LinkLost without a clear answer."""
+    return program_of((yield from _upload(job)))
+
+
+def _upload(job: Job[str] | None) -> Steps[Answer]:
     if job is not None:
         job.show("reading", 0, 0)
     answer = yield Send(b"UL\r", Upload(), timeout_s=1.0, extends=True)
@@ -310,7 +320,39 @@ def upload_steps(nonces: Iterator[str], job: Job[str] | None) -> Steps[str]:
         raise Refused(0, "The controller refused to send its program.")
     if answer.kind is not Kind.ACCEPTED:
         raise LinkLost("The controller did not send its program to the end.")
+    return answer
+
+
+def program_of(answer: Answer) -> str:
+    """Its lines as they came."""
     return answer.text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def held_program(waiting: Waiting, nonces: Iterator[str], job: Job[str] | None = None) -> Steps[str]:
+    """The same while a program may run: what it prints can come between two lines.
+
+    Text only ever adds to a reading, so the program is what came twice with no reading shorter than it, unless one of
+    its lines is what stood behind a reading: a busy line adds the same again and again. A program that may ask is not
+    read again: the second reading would be its answer.
+    """
+    answers = [(yield from _upload(job))]
+    first = program_of(answers[0])
+    if waiting.position == frozenset() or Listing(first).may_ask(waiting.position):
+        return first
+    while len(answers) < READINGS:
+        yield Wait(UNEVEN_S * len(answers))  # out of step with what the program prints again and again
+        answers.append((yield from _upload(job)))
+        shortest = min((program_of(answer) for answer in answers), key=len)
+        printed = tuple(line for answer in answers for line in answer.behind.splitlines())
+        if [program_of(answer) for answer in answers].count(shortest) > 1 and not _holds(shortest, printed):
+            return shortest
+    raise Unsteady("Not read: the running program prints in between. Halt it, or try again.")
+
+
+def _holds(program: str, printed: Sequence[str]) -> bool:
+    """Whether a line of it may be what was printed, the first one also its end, or the end of its line."""
+    first, *others = program.split("\n")
+    return any(text.endswith(first) for text in printed) or bool(set(others) & set(printed))
 
 
 def recover(waiting: Waiting, nonces: Iterator[str]) -> Steps[None]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from device import commands
 from device.asking import Listing
 from device.commands import Reply
-from device.download import Download, Downloaded, DownloadFailed, Job, program_lines, recover, upload_steps
+from device.download import Download, Downloaded, DownloadFailed, Job, held_program, program_lines, recover
 from device.happenings import Badge, NoticeKind
 from device.moving import refused
 from device.tasks import LinkError, NotAllowed, Priority, Steps, Stopped
@@ -109,7 +109,7 @@ class Memory:
     def _uploading(self, job: Job[str]) -> Steps[str]:
         if self._c.resting():
             raise NotAllowed(f"Not read: {self._c.resting()}")
-        text = yield from upload_steps(self._c.nonces, job)
+        text = yield from held_program(self._c.waiting, self._c.nonces, job)
         self._c.set_listing(text)
         return text
 

@@ -22,6 +22,7 @@ class Leftover:
         self._text = ""
         self._owed: deque[int] = deque()
         self._lines: deque[str] = deque()
+        self._told: deque[str] = deque(maxlen=8)  # the last lines of text
         self.echoes: deque[str] = deque(maxlen=8)  # lines that were sent
         self.echoed = False  # whether the last line sent came back
         self.seen: deque[str] = deque(maxlen=16)  # marks of frames that came too late
@@ -40,6 +41,15 @@ class Leftover:
             self.echoed |= bool(echo)
             if not echo or line != echo:
                 self._lines.append(line.removesuffix(echo))
+                self._told.append(self._lines[-1])
+
+    def without_end(self, answer: str) -> str:
+        """An answer without the end of a text that had begun before it; surely so where that text was told before."""
+        end, line_end, rest = answer.partition("\n")
+        if not line_end or not self._text or (self._text + end.rstrip("\r")) not in self._told:
+            return answer
+        self.add(end + line_end)
+        return rest
 
     def lines(self) -> list[str]:
         """Complete lines since the last call."""

@@ -11,7 +11,7 @@ from codegen.models import Model
 from codegen.twoletter.fixed import string_text, string_value
 from device.backing_up import exact, listed
 from device.backup import Value
-from device.download import upload_steps
+from device.download import held_program
 from device.tasks import LinkError, NotAllowed, Priority, Steps
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ class Values:
         model = self._allowed()
         listing = self._c.listing
         if listing is None:
-            listing = yield from upload_steps(self._c.nonces, None)
+            listing = yield from held_program(self._c.waiting, self._c.nonces)
             self._c.set_listing(listing)
         return (yield from listed(self._c, model, listing))
 

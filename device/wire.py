@@ -21,6 +21,7 @@ from device.leftover import Leftover, refusal
 OPEN, CLOSE = 30, 31  # the characters that frame a read
 ANYTHING, NOTHING = ".*", "(?!)"  # what the lines of a reply look like
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
+MARKED_END = "\x1a(?:\r\n)?(?P<text>(?:[^:\r\n][^\r\n]*\r\n)*):"  # its prompt may follow a program's text
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +100,7 @@ class Answer:
     kind: Kind
     values: tuple[float, ...] = ()
     text: str = ""  # of values: what came behind their prompt
+    behind: str = ""  # of an upload: a program's text that came right behind it
     certain: bool = True
     refused: bool = False  # of uncertain: something stood there like a refusal, and was taken out of the text
 
@@ -293,15 +295,16 @@ class Wire:
         if len(self._buffer) > 1 and (0x1A not in self._buffer if marked else self._buffer[-1:] not in b":?"):
             return None  # a long listing is looked at once, at its end
         window = self._window(len(self._buffer))
-        match = re.search("\x1a(?:\r\n)?:" if marked else "(?:^|(?<=\r\n)(?:\r\n)?):$", window)
+        match = re.search(MARKED_END if marked else "(?:^|(?<=\r\n)(?:\r\n)?):$", window)
         if match is None:
             if window == "?":
                 self._drop(len(self._buffer))
                 return Answer(Kind.REFUSED)
             return None
         self._take(len(self._buffer))
-        self.left.add(window[match.end() :])
-        return Answer(Kind.ACCEPTED, text=window[: match.start()])
+        program = self.left.without_end(window[: match.start()])
+        self.left.add(text := (match["text"] if marked else "") + window[match.end() :])
+        return Answer(Kind.ACCEPTED, text=program, behind=text)
 
     def _revision(self) -> Answer | None:
         window = self._window(len(self._buffer))
