@@ -17,6 +17,7 @@ from app.asked import AskedOfMachine
 from app.commissioning_orders import Orders
 from app.connection import Connection
 from app.facts import Facts
+from app.late import COMMISSIONING
 from app.run import Ask
 from app.session import Session
 from app.tick import Tick, failure_of
@@ -64,7 +65,7 @@ class Commissioning(QObject):
         self._connection, self._session, self._tick = connection, session, tick
         self.ask = AskedOfMachine(connection, ask, self.said.emit)
         self._facts, self._parent, self.now = facts, parent, now
-        self.folder = data / "commissioning"
+        self.folder = data / COMMISSIONING
         self.window: CommissioningWindow | None = None
         self.preview: PrintPreview | None = None
         self.record = Record("X", "")

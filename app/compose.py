@@ -121,7 +121,9 @@ class Studio(QObject):
         self.options = Options(settings, self._theme, self.window)
         self.in_turn = InTurn(self.connection, self.desk.put, self._asks_later, self)
         self.which = WhichModel(self.connection, settings, self.in_turn.ask)
-        self.met = FoundWorking(self.connection, self.in_turn.ask, self.connection.stop, self.run.upload)
+        self.met = FoundWorking(
+            self.connection, self.in_turn.ask, self.connection.stop, self.run.upload, self.late.offers_first
+        )
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.setup.facts = self.follow.facts
@@ -218,7 +220,7 @@ class Studio(QObject):
             self.ear.look,
             self.follow.look,
             self.setup.look,
-            self.met.look,  # before those who look at what an interrupted step has left
+            self.met.look,
             self.late.look,
             lambda: self.editor.look(self.follow.known),
             self.which.look,

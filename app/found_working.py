@@ -17,8 +17,16 @@ SINCE = "Since when, and what ran before, is not known. Connecting has changed n
 class FoundWorking:
     """`look` is called with each tick; it asks the machine once for every connection."""
 
-    def __init__(self, connection: Connection, ask: Ask, stop: Callable[[], None], upload: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        connection: Connection,
+        ask: Ask,
+        stop: Callable[[], None],
+        upload: Callable[[], None],
+        first: Callable[[Controller], bool],
+    ) -> None:
         self._connection, self._ask, self._stop, self._upload = connection, ask, stop, upload
+        self._first, self._late = first, False  # whether something else is asked before; whether it has been
         self._met: Controller | None = None
         self._asked: Inquiry | None = None
 
@@ -33,10 +41,16 @@ class FoundWorking:
         if controller is not self._met:
             if controller.kind is not Kind.MACHINE or controller.state is not State.READY:
                 return
-            self._met, self._asked = controller, inquire(controller)
+            self._met, self._asked, self._late = controller, inquire(controller), False
         if controller.control:  # what works from now on may have been started from here
             self._asked = None
         if self._asked is not None and self._asked.answer.done():
+            if self._first(controller):
+                self._late = True
+                return
+            if self._late:  # much may have ended since then
+                self._asked, self._late = inquire(controller), False
+                return
             asked, self._asked = self._asked, None
             self._tell(controller, asked)
 

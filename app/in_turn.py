@@ -1,4 +1,4 @@
-"""What the studio asks by itself, as after a crash: one after the other, the machine first, unsaved work last."""
+"""What the studio asks by itself, as after a crash: one after the other, unsaved work last."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from device.api import Kind
+from device.api import Controller, Kind
 from widgets.parts.pieces import Pieces
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from app.former_offer import Offer
     from app.search import Candidate
     from widgets.panel import Panel
+
+COMMISSIONING, TUNING = "commissioning", "tuning"  # folders with what was there before a step, or before a run
 
 
 class Late(QObject):
@@ -104,8 +106,8 @@ class Late(QObject):
 
         studio = self._studio
         made = Offer(
-            studio.connection, studio.tick, studio.in_turn.ask, studio.data / "commissioning",
-            self._may_not_be_looked_at, self, STEP,
+            studio.connection, studio.tick, studio.in_turn.ask, studio.data / COMMISSIONING,
+            self._step_goes_on, self, STEP,
         )  # fmt: skip
         made.said.connect(studio.desk.say)
         return made
@@ -117,9 +119,17 @@ class Late(QObject):
             return False
         return not self.making.done or self.interrupted.looking or self.at_machine.tuning.offer.looking
 
-    def _may_not_be_looked_at(self) -> bool:
-        """A step goes on, or the machine has still to say what it does: that is told first."""
-        return self._studio.met.asking or ("commissioning" in self.__dict__ and bool(self.commissioning.busy))
+    def offers_first(self, controller: Controller) -> bool:
+        """Whether former values of what was interrupted are still to be offered: that comes first (safety.md, 4)."""
+        folders = [folder for name in (COMMISSIONING, TUNING) if (folder := self._studio.data / name).is_dir()]
+        if not folders or controller.resting():
+            return False
+        from device.former import left_behind, meant
+
+        return any(meant(former, controller) for folder in folders for former in left_behind(folder))
+
+    def _step_goes_on(self) -> bool:
+        return "commissioning" in self.__dict__ and bool(self.commissioning.busy)
 
     # ---- actions
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from app.former_offer import Offer
+from app.late import TUNING
 from app.tuner import Tuner
 from app.tuner_book import Book
 from app.tuner_memory import Memory
@@ -18,15 +19,13 @@ if TYPE_CHECKING:
     from app.compose import Studio
     from device.tuning.entry import Entry
 
-FOLDER = "tuning"
-
 
 class TunerPart(QObject):
     """`panel` goes into a dock; everything else is joined already."""
 
     def __init__(self, studio: Studio, data: Path) -> None:
         super().__init__(studio)
-        folder, now = data / FOLDER, datetime.now
+        folder, now = data / TUNING, datetime.now
         connection, session, tick, ask = studio.connection, studio.session, studio.tick, studio.desk.ask
         self.panel = TunerPanel()
         self.book = Book(connection, session, self.panel, folder, studio.window, now, tick)
@@ -35,9 +34,7 @@ class TunerPart(QObject):
             connection, session, studio.run, tick, self.panel, self.book, self.memory, ask, studio.right.careful,
             folder, self, now,
         )  # fmt: skip
-        self.offer = Offer(
-            connection, tick, studio.in_turn.ask, folder, lambda: studio.met.asking or self.tuner.job is not None, self
-        )
+        self.offer = Offer(connection, tick, studio.in_turn.ask, folder, lambda: self.tuner.job is not None, self)
         self._recorder = studio.recorder
         self.book.added.connect(self._record)
         for part in (self.book, self.tuner, self.offer):

@@ -1,4 +1,4 @@
-"""After a kill several things want an answer: they come one after the other, what the machine does first."""
+"""After a kill several things want an answer, one after the other: what was there before it first (safety.md, 4)."""
 
 from __future__ import annotations
 
@@ -60,14 +60,14 @@ def test_dialogs_after_a_kill_come_one_after_the_other(stage: Stage) -> None:
         assert len(titles) <= 1, titles
         seen.extend(title for title in titles if title not in seen[-1:])
 
-    for words in ("", "Stop everything", "Keep what the controller holds", "Keep what the controller holds"):
+    for words in ("", "Keep what the controller holds", "Keep what the controller holds", "Stop everything"):
         if words:
             answer(stage, words)
         for _ in range(30):
             look()
-    assert seen[:2] == [UNSAVED, TITLE]
-    assert set(seen[2:4]) == {STEP.title, TUNING.title}
-    assert seen[4:] == [UNSAVED]
+    assert seen[0] == UNSAVED
+    assert set(seen[1:3]) == {STEP.title, TUNING.title}
+    assert seen[3:] == [TITLE, UNSAVED]
     assert not left_behind(stage.studio.data / "tuning") and not left_behind(stage.studio.data / "commissioning")
 
 
@@ -76,9 +76,25 @@ def test_what_was_to_be_asked_of_a_machine_that_is_gone_is_not_asked(stage: Stag
     killed(stage)
     rig = stage.connect("machine", "ssc2", answers=False, program=KILLED)
     rig.simulation.execute("#A")
-    stage.until(lambda: shown(stage) == [TITLE])
+    stage.until(lambda: bool(shown(stage)))
     stage.go(30)
     stage.connect("simulator", "ssc1")
-    answer(stage, "Go on watching")
+    answer(stage, "Keep what the controller holds")
     stage.go(30)
     assert shown(stage) == []
+
+
+def test_what_is_put_back_has_nothing_left_to_tell(stage: Stage) -> None:
+    """The jog in which a killed run held its axis ends with it: no question speaks of a motion that is over."""
+    keep(Former("X", "ssc2", 1, "machine", "the press", WHEN.isoformat(), 0, {"KP": 7 * ONE},
+                stage.studio.data / "tuning" / "left.before-tuning"))  # fmt: skip
+    rig = stage.connect("machine", "ssc2", answers=False, program="#A\nSH X\nJG 0\nBG X\nEN")
+    rig.simulation.execute("#A")
+    stage.until(lambda: bool(shown(stage)))
+    assert shown(stage) == [TUNING.title]
+    answer(stage, "Take Control and put them back")
+    assert rig.simulation.state()["axes"]["X"]["moving"]
+    for _ in range(60):
+        stage.go(1)
+        assert TITLE not in shown(stage)
+    assert not left_behind(stage.studio.data / "tuning") and not rig.simulation.state()["axes"]["X"]["moving"]

@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.found_working import TITLE
 from device.former import left_behind, meant
 from device.simulator.process import SimulatorProcess
 from tests.app.tuning_life import click, studio_at
@@ -84,10 +83,7 @@ def left_of(machine: SimulatorProcess, folder: Path) -> tuple[bool, list[str]]:
 
 
 def offered(qapp: QApplication, machine: SimulatorProcess, folder: Path, left: bool, changed: list[str]) -> None:
-    """The next start of the window offers the former gains first thing, and puts them back by a click.
-
-    Before it only what the machine does is said: the jog of the killed run, in which the axis is held.
-    """
+    """The next start of the window offers the former gains first thing, and puts them back by a click."""
     studio = studio_at(qapp, machine.address, BAUD, folder)
     studio.window.show()
     try:
@@ -95,10 +91,7 @@ def offered(qapp: QApplication, machine: SimulatorProcess, folder: Path, left: b
         while left and left_behind(folder / "tuning"):
             qapp.processEvents()
             for question in studio.window.findChildren(Question):
-                if question.isVisible() and question.windowTitle() == TITLE:
-                    assert "X moves" in question.words
-                    click(question.buttons["Go on watching"])
-                elif question.isVisible():
+                if question.isVisible():
                     assert "tuning of axis X" in question.words
                     before = question.words.partition("Before it:")[2]
                     assert all(f"{name} {FORMER[name]:g}" in before for name in changed)
