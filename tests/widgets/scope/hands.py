@@ -74,21 +74,27 @@ def settled(chart: Chart) -> None:
 
 def drag(widget: QWidget, start: QPoint, end: QPoint) -> None:
     """Pressed, moved and let go. The scene drops moves within 10 ms of another one, also of one that Qt makes up when
-    something else is laid out: then a drag would be a click. So its clock has no say here."""
+    something else is laid out: then a drag would be a click. So its clock has no say here. Every move is sent to the
+    widget itself: a cursor that is put somewhere may be over a window that another test left there."""
     rate = pyqtgraph.getConfigOption("mouseRateLimit")
     pyqtgraph.setConfigOption("mouseRateLimit", 0)
     try:
-        QTest.mouseMove(widget, start)  # a hand is there before it presses
+        _move(widget, start, Qt.MouseButton.NoButton)  # a hand is there before it presses
         QTest.mousePress(widget, LEFT, pos=start)
         for part in (0.3, 0.6, 1.0):
             place = QPoint(*(round(a + part * (b - a)) for a, b in zip(start.toTuple(), end.toTuple(), strict=True)))
-            event = QMouseEvent(QEvent.Type.MouseMove, QPointF(place), widget.mapToGlobal(QPointF(place)), LEFT, LEFT,
-                Qt.KeyboardModifier.NoModifier)  # fmt: skip
-            QApplication.sendEvent(widget, event)
-            QApplication.processEvents()
+            _move(widget, place, LEFT)
         QTest.mouseRelease(widget, LEFT, pos=end)
     finally:
         pyqtgraph.setConfigOption("mouseRateLimit", rate)
+
+
+def _move(widget: QWidget, place: QPoint, held: Qt.MouseButton) -> None:
+    there, none = QPointF(place), Qt.KeyboardModifier.NoModifier
+    QApplication.sendEvent(
+        widget, QMouseEvent(QEvent.Type.MouseMove, there, widget.mapToGlobal(there), held, held, none)
+    )
+    QApplication.processEvents()
 
 
 def given(body: Body) -> tuple[Capture, float]:
