@@ -49,7 +49,7 @@ class Modelling(QObject):
         self.estimate: Estimate | None = None
         self.proposal: Proposal | None = None
         self._excited: Excited | None = None
-        self._to_draw = False
+        self._to_draw = 0
         self.designing = False
         self._next: tuple[float, float] | None = None  # asked for while one was being worked out; the last counts
         panel.target_wanted.connect(self._design)
@@ -57,7 +57,7 @@ class Modelling(QObject):
     def forget(self) -> None:
         """Another axis, another controller."""
         self.estimate = self.proposal = self._excited = self._next = None
-        self._to_draw = False
+        self._to_draw = 0
         if self._panel.bode_plot is not None:
             self._panel.model.clear()
             self._panel.bode_plot.show_bode(None)
@@ -65,8 +65,9 @@ class Modelling(QObject):
     def look(self) -> None:
         """With each tick: two pictures at once would be felt."""
         if self._to_draw:
-            self._to_draw = False
-            self._draw_predicted()
+            self._to_draw -= 1
+            if not self._to_draw:
+                self._draw_predicted()
 
     def data(self) -> dict[str, float | str]:
         """The estimate as the logbook keeps it."""
@@ -185,7 +186,7 @@ class Modelling(QObject):
         model.show_feeds(self.feeds.words if self.feeds is not None else "")
         if proposal.gains is not None:
             self._panel.manual.gains.show_filter(proposal.gains)
-            self._to_draw = True
+            self._to_draw = 2  # looks: the first one is in this very tick
         else:
             self._panel.show_curves((), None, 10.0)  # what was predicted belongs to another target
 

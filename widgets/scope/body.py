@@ -49,7 +49,7 @@ class Body(QWidget):
         super().__init__(parent)
         self._setup: Setup | None = None
         self._partial: Capture | None = None
-        self._due = False  # it has strips, but is not drawn into them yet
+        self._due = self._to_measure = False  # a part that has come is not drawn yet; is drawn, but not measured yet
         self._roll: Roll | None = None
         self._reason = ""
         self.picture: Picture | None = None
@@ -101,8 +101,11 @@ class Body(QWidget):
         elif not controller.control:
             reason = "This is Watch: switch to Control first; a capture writes arrays in the controller."
         self.bar.allow(reason, controller.kind is not Kind.OFFLINE)
-        if self._due:
-            self.redraw()
+        if self._to_measure:
+            self._measure()
+        elif self._due:
+            self.redraw(measured=False)
+            self._to_measure = True
         else:
             self.chart.prepare()
 
@@ -110,15 +113,13 @@ class Body(QWidget):
         self.bar.show_progress(phase, fraction, remaining_s)
 
     def show_partial(self, capture: Capture) -> None:
-        """What there is of a capture under way; its strips come first, its curves with the next tick."""
-        self._partial = capture
-        picture = self._picture(capture)
-        if self.chart.begin(picture.lines, picture.bottom, picture.equal):
-            self.empty.hide()
-            self.chart.show()
-            self._due = True
-        else:
-            self.redraw()
+        """What there is of a capture under way: its strips with this tick, curves and readings with the next two."""
+        first, self._partial, self._due = self._partial is None, capture, True
+        if first:
+            picture = self._picture(capture)
+            if self.chart.begin(picture.lines, picture.bottom, picture.equal):
+                self.empty.hide()
+                self.chart.show()
 
     def show_result(self, words: str, good: bool = True) -> None:
         """The capture has ended."""
@@ -180,7 +181,7 @@ class Body(QWidget):
 
     def redraw(self, fit: bool = False, measured: bool = True) -> None:
         """Everything anew, as the choices say."""
-        self._due = False
+        self._due = self._to_measure = False
         live, capture = self._roll is not None, self.shown
         self.bar.show_view(self.bar.view, live)
         nothing = capture is None and not live
@@ -236,6 +237,7 @@ class Body(QWidget):
     # ----------------------------------------------------------------- measuring
 
     def _measure(self) -> None:
+        self._to_measure = False
         if self.picture is None:
             return
         cursors, view = self.chart.cursors, self.bar.view
