@@ -299,6 +299,7 @@ def test_a_motor_type_goes_with_the_motor_off_and_nothing_while_an_axis_moves(st
     assert again.stop.isVisible() and again.stop.words[1].startswith("MACHINE")
     QTest.mousePress(again.stop, Qt.MouseButton.LeftButton)
     stage.until(lambda: rig.moving == [])
+    QTest.mouseRelease(again.stop, Qt.MouseButton.LeftButton)
 
 
 @pytest.mark.long

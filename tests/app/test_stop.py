@@ -311,6 +311,7 @@ def test_a_floating_panel_that_moves_something_has_its_own_stop(stage: Stage) ->
         assert dock.stop_button.isVisible()
         QTest.mousePress(dock.stop_button, Qt.MouseButton.LeftButton)
         assert stopped_once(stage)
+        QTest.mouseRelease(dock.stop_button, Qt.MouseButton.LeftButton)
 
 
 WORDS: dict[StopState, tuple[str, str]] = {

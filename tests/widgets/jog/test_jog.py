@@ -346,6 +346,7 @@ def test_offline_and_watch_say_why_nothing_moves(stage: Stage) -> None:
     assert page.forward.toolTip() == WATCHED
     QTest.mousePress(page.hold_forward, LEFT)
     held_for(stage, 10)
+    QTest.mouseRelease(page.hold_forward, LEFT)
     assert at(stage) == 0
 
 

@@ -89,7 +89,7 @@ def test_whatever_ends_the_hold_lets_it_go_until_it_is_pressed_again(
     elif how == "Shift pressed":
         QTest.keyPress(stick, Qt.Key.Key_Shift)
     else:
-        QTest.mousePress(stick, Qt.MouseButton.RightButton)
+        QTest.mouseClick(stick, Qt.MouseButton.RightButton)
     assert told[-1] == (0.0, 0.0) and not stick.held
     QTest.keyRelease(stick, Qt.Key.Key_Left)
     assert told[-1] == (0.0, 0.0)
