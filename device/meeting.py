@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from codegen.models import MODELS
 from device import commands
 from device.asking import Listing, parted
 from device.clock import TICKS, Reading, Verdict
-from device.download import Unsteady, held_program, recover
+from device.download import recover, upload_steps
 from device.happenings import Kind, NoticeKind, State
 from device.identify import Identity, identify, read_once, read_surely
 from device.stop import StopState
@@ -190,8 +189,8 @@ class Events:
             lines += [int(v) for v in answer.values if v >= 0]
         c.waiting.threads(frozenset(lines))
         if lines and c.listing is None:
-            with suppress(Unsteady):  # whoever needs the program tries again
-                c.waiting.listing = Listing((yield from held_program(c.waiting, c.nonces)))
+            text = yield from upload_steps(c.nonces, None)  # to know its questions one reading is enough
+            c.waiting.listing = Listing(text)
 
     def lost(self, sentence: str, *, refused: bool) -> None:
         c = self._c

@@ -163,9 +163,13 @@ class Mouse(Hands):
         until(box.view().isVisible, "the list to open")
         view = box.view()
         place = view.visualRect(box.model().index(index, 0)).center()
-        QTest.mouseMove(view.viewport(), place)
-        QTest.qWait(QApplication.doubleClickInterval() + 50)  # Qt ignores a release that comes sooner
-        QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=place)
+        ignored_s = 0.001 * QApplication.doubleClickInterval() + 0.05  # Qt ignores a release that comes sooner
+        end = time.monotonic() + PATIENCE_S
+        while view.isVisible():  # a slow computer may have opened it late
+            assert time.monotonic() < end, f"{words} was not chosen"
+            QTest.qWait(int(1000 * ignored_s))
+            QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=place)
+            QTest.qWait(50)
         until(lambda: box.currentIndex() == index, f"{words} to be chosen")
 
     def turn_to(self, pages: QListWidget, title: str) -> None:
