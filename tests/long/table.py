@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tests.long import RESULTS
 
+MANY = 4  # figures of one kind from which on they share a line
 README = Path(__file__).resolve().parents[2] / "README.md"
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 
@@ -18,11 +19,27 @@ def rows_of(results: Path = RESULTS) -> list[dict[str, object]]:
 
 
 def table(rows: list[dict[str, object]]) -> str:
-    """The figures as a table."""
+    """The figures as a table; what was measured of many machines stands in one line, from the least to the most."""
     lines = ["| what | measured | on | with |", "|---|---|---|---|"]
+    families: dict[tuple[str, str], list[dict[str, object]]] = {}
     for row in rows:
-        lines.append(f"| {row['name']} | {row['figure']:.4g} {row['unit']} | {row['date']} | `{row['command']}` |")
+        families.setdefault(_family(str(row["name"])), []).append(row)
+    for (head, what), members in families.items():
+        many = [members] if len(members) >= MANY else [[row] for row in members]
+        for some in many:
+            name = some[0]["name"] if len(some) == 1 else f"{head}, {len(some)} of them" + what
+            figures = [float(str(row["figure"])) for row in some]
+            measured = " to ".join(f"{figure:.4g}" for figure in sorted({min(figures), max(figures)}))
+            last = some[-1]
+            lines.append(f"| {name} | {measured} {last['unit']} | {last['date']} | `{last['command']}` |")
     return "\n".join(lines)
+
+
+def _family(name: str) -> tuple[str, str]:
+    """What is the same in "tuning, this machine: settling" and "tuning, that machine: settling"."""
+    head, _, rest = name.partition(", ")
+    _, colon, what = rest.rpartition(": ")
+    return head, colon + what if colon else ""
 
 
 def with_table(text: str, rows: list[dict[str, object]]) -> str:
