@@ -22,6 +22,8 @@ OPEN, CLOSE = 30, 31  # the characters that frame a read
 ANYTHING, NOTHING = ".*", "(?!)"  # what the lines of a reply look like
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
 MARKED_END = "\x1a(?:\r\n)?(?P<text>(?:[^:\r\n][^\r\n]*\r\n)*):"  # its prompt may follow a program's text
+ANY_END = "\x1a(?P<text>[^:]*):?"  # its prompt stands within a line of that text, or was lost
+LONG_BEHIND = 256  # characters behind the control-Z: more than a full output buffer of text
 
 
 @dataclass(frozen=True, slots=True)
@@ -296,6 +298,8 @@ class Wire:
             return None  # a long listing is looked at once, at its end
         window = self._window(len(self._buffer))
         match = re.search(MARKED_END if marked else "(?:^|(?<=\r\n)(?:\r\n)?):$", window)
+        if match is None and marked and len(window) - window.find("\x1a") > LONG_BEHIND:
+            match = re.search(ANY_END, window)
         if match is None:
             if window == "?":
                 self._drop(len(self._buffer))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from itertools import pairwise
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -342,3 +343,13 @@ def test_marked_text_beside_an_answer_is_not_lost() -> None:
         answer = wire.answer()
         assert answer is not None and "HELLO" not in answer.text
         assert wire.left.lines() == ["HELLO"], expected
+
+
+@pytest.mark.parametrize("behind", [b":", b"\r\n:", b"TICK\r\n:", b"TICK\r\nTI\r\n:", b"TI:CK\r\n" + 50 * b"TICK\r\n",
+                                    50 * b"TICK\r\n"])  # fmt: skip
+def test_a_reading_of_the_program_ends_whatever_is_printed_behind_it(behind: bytes) -> None:
+    """Its prompt may stand behind a text, within a line of it, or be lost: more than an output buffer tells."""
+    wire = Wire()
+    wire.expect(Upload(), "UL")
+    answers = fed(wire, b"#A\r\nEN\r\n\x1a" + behind, list(range(0, len(behind), 7)))
+    assert [(answer.kind, answer.text) for answer in answers] == [(Kind.ACCEPTED, "#A\r\nEN\r\n")]
