@@ -9,6 +9,7 @@ from typing import TypeVar
 
 T = TypeVar("T")
 SWITCH_S = 0.001  # between two turns of the interpreter meanwhile: the window waits no longer for its own
+USUAL_S = 0.005  # Python's own; what stood there before may be the short one of another sum, which ends sooner
 
 
 def in_background(call: Callable[[], T]) -> Future[T]:
@@ -21,9 +22,8 @@ def in_background(call: Callable[[], T]) -> Future[T]:
 
 def beside(call: Callable[[], T]) -> T:
     """Calls it, and lets the window's thread go on in small turns."""
-    before = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH_S)
     try:
         return call()
     finally:
-        sys.setswitchinterval(before)
+        sys.setswitchinterval(USUAL_S)

@@ -122,8 +122,9 @@ class Studio(QObject):
         self.in_turn = InTurn(self.connection, self.desk.put, self._asks_later, self)
         self.which = WhichModel(self.connection, settings, self.in_turn.ask)
         self.met = FoundWorking(
-            self.connection, self.in_turn.ask, self.connection.stop, self.run.upload, self.late.offers_first
-        )
+            self.connection, self.in_turn.ask, self.connection.stop, self.run.upload,
+            lambda controller: self.in_turn.asking or self.late.offers_first(controller),
+        )  # fmt: skip
         self.actions = Actions(self._handlers(), self.program.commands, self)
         self.follow = Follow(self.connection, self.session, self.run, self.actions, self.window, self)
         self.setup.facts = self.follow.facts

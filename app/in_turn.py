@@ -43,6 +43,11 @@ class InTurn(QObject):
         self._waiting.append(Put(self._connection.controller, title, words, answers, picture))
         self.look()
 
+    @property
+    def asking(self) -> bool:
+        """Whether a question about the machine is open."""
+        return self._open is not None
+
     def hold(self, window: QDialog) -> None:
         """Shown when it is its turn; steps aside while something is asked about the machine."""
         self._held = window
