@@ -15,6 +15,7 @@ from app.rubbish import Rubbish
 from tests.long import is_long
 
 ROOT = Path(__file__).parent
+WINDOWS = ("app", "widgets", "benchmarks")  # the folders whose tests make windows
 
 # The everyday run draws the same examples every time, so that it says the same of the same code; the long run searches.
 settings.register_profile(
@@ -52,12 +53,16 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Garbage of the window is looked for in its own thread, as in the program; elsewhere Python does as it likes."""
-    if item.path.relative_to(ROOT).parts[0] in ("app", "widgets"):
+    """Garbage of the window is looked for in its own thread, as in the program; elsewhere Python does as it likes.
+
+    A window that a test left open stays to the end: a thread of a later test that freed it would crash the run.
+    """
+    if item.path.relative_to(ROOT).parts[0] in WINDOWS:
         gc.disable()
         Rubbish().look()
     elif not gc.isenabled():
         gc.collect()
+        gc.freeze()
         gc.enable()
 
 

@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from tests.rules.sources import PACKAGES, imported, package_of, python_files, relative, syntax
+from tests.conftest import WINDOWS
+from tests.rules.sources import PACKAGES, ROOT, imported, package_of, python_files, relative, syntax
 
 STANDARD = frozenset(sys.stdlib_module_names)
 THREADS = frozenset({"threading", "_thread", "multiprocessing", "concurrent", "asyncio", "queue"})
@@ -104,5 +105,18 @@ def test_no_qt_below_the_widgets(package: str) -> None:
         for path in python_files(package)
         for line, name in imported(syntax(path), package_of(path))
         if name.split(".")[0] in ("PySide6", "PyQt6", "pyqtgraph", "shiboken6")
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_only_the_tests_of_windows_make_windows() -> None:
+    """What they leave behind is freed in the window's thread (tests/conftest.py); others free it in any thread."""
+    folders = [path for path in (ROOT / "tests").iterdir() if path.is_dir() and path.name not in WINDOWS]
+    wrong = [
+        f"{relative(path)}:{line}: {name}"
+        for folder in folders
+        for path in folder.rglob("test_*.py")
+        for line, name in imported(syntax(path), package_of(path))
+        if name.split(".")[0] in ("PySide6", "pyqtgraph", "widgets")
     ]
     assert not wrong, "\n".join(wrong)
