@@ -35,8 +35,11 @@ class Rubbish:
             gc.collect(1 if older else 0)
 
     def keep(self) -> None:
-        """What is there now stays to the end: it need not be looked at again and again."""
-        if not self._by_itself:
+        """What is there now stays to the end: it need not be looked at again and again.
+
+        Not where somebody else has taken over from Python, as tests do: what is there then is no one's to keep.
+        """
+        if self._by_itself:
             gc.freeze()
 
     def end(self) -> None:

@@ -8,6 +8,8 @@ import threading
 import weakref
 from collections.abc import Callable
 
+import pytest
+
 from app.background import in_background
 from app.rubbish import RESTS, Rubbish
 from tests.stage import Stage
@@ -77,3 +79,18 @@ def test_everything_is_looked_through_now_and_then_only() -> None:
     assert len(often) > 3 and min(pair[1] - pair[0] for pair in itertools.pairwise(often)) >= older * old
     assert len(seldom) > 1 and min(pair[1] - pair[0] for pair in itertools.pairwise(seldom)) >= RESTS
     assert min(pair[1] - pair[0] for pair in itertools.pairwise(often)) < RESTS
+
+
+@pytest.mark.parametrize("by_itself", [True, False])
+def test_what_is_there_when_the_start_is_over_is_looked_at_no_more(by_itself: bool) -> None:
+    """In the program, where Python looked by itself before; in these tests nothing is kept."""
+    kept, held = gc.get_freeze_count(), [[number] for number in range(1000)]
+    if by_itself:
+        gc.enable()
+    rubbish = Rubbish()
+    try:
+        rubbish.keep()
+        assert (gc.get_freeze_count() >= kept + len(held)) == by_itself
+    finally:
+        rubbish.end()
+        gc.disable()
