@@ -26,6 +26,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QMenu, QWidget
 
 from widgets.parts.files import PICTURES, ask_save
+from widgets.parts.inside import Inside
 from widgets.parts.look import look
 from widgets.parts.question import Question
 
@@ -80,9 +81,7 @@ def _large_ticks(axis: Any, low: float, high: float, size: float) -> list[float]
     return found
 
 
-def inside() -> pyqtgraph.PlotItem:
-    """What a diagram is made around, the first half of the work; pyqtgraph's own menu would take half as long again."""
-    return pyqtgraph.PlotItem(enableMenu=False)
+inside = Inside
 
 
 class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
@@ -97,10 +96,9 @@ class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
     def __init__(
         self, name: str, equal: bool = False, *, parent: QWidget, item: pyqtgraph.PlotItem | None = None
     ) -> None:
-        super().__init__(parent, plotItem=item or inside())
+        super().__init__(parent, plotItem=item or Inside())
         self.setAccessibleName(name)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.hideButtons()
         self.getPlotItem().layout.setContentsMargins(1, TOP, 1, 1)
         self.setAspectLocked(equal)
         self.grid = Grid(self)

@@ -14,7 +14,7 @@ from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPalette, QPixmap, QR
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from widgets.parts.look import look
-from widgets.parts.plot import Plot, inside
+from widgets.parts.plot import Plot
 from widgets.parts.turns import Turns
 from widgets.scope.curve import DrawnCurve
 
@@ -45,9 +45,9 @@ class Line:
 class Strip(Plot):
     """One scale of the picture; what is done to its time is done to all."""
 
-    def __init__(self, chart: Chart, item: pyqtgraph.PlotItem | None = None) -> None:
+    def __init__(self, chart: Chart) -> None:
         self._chart = chart
-        super().__init__("Curves", parent=chart, item=item)
+        super().__init__("Curves", parent=chart)
         self.legend = QLabel(self)
         self.legend.setTextFormat(Qt.TextFormat.RichText)
         self.legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
@@ -132,7 +132,6 @@ class Chart(QWidget):
         self.setAccessibleName("Curves")
         self.strips: dict[str, Strip] = {}
         self._spare: list[Strip] = []  # as new
-        self._begun: pyqtgraph.PlotItem | None = None  # of the next one
         self._turns = Turns(self)
         self.cursors: list[float] | None = None
         self._chosen = 0
@@ -148,14 +147,12 @@ class Chart(QWidget):
         self._column.setSpacing(2)
 
     def prepare(self) -> None:
-        """Half a strip for the next picture with each tick: made when they are needed the window would stand still."""
-        if self._begun is not None:
+        """A strip for the next picture with each tick: made when they are needed the window would stand still."""
+        if len(self._spare) < SPARE:
             self._spare.append(self._made())
-        elif len(self._spare) < SPARE:
-            self._begun = inside()
 
     def _made(self) -> Strip:
-        strip, self._begun = Strip(self, self._begun), None
+        strip = Strip(self)
         strip.hide()
         strip.panned.connect(self.panned)
         strip.getViewBox().setMouseEnabled(x=True, y=True)
