@@ -140,6 +140,7 @@ class AtMachine:
         )  # fmt: skip
         self.pads.add(self.table, self.table.pad_dead)
         self.ghosts.sources.append(self.teach.play.ghost)
+        studio.leaving.last.append(self.teach.end)
         self._add(self.table)
         self._dock(self.table, RIGHT)
 
@@ -174,6 +175,7 @@ class AtMachine:
         )  # fmt: skip
         self.scope.said.connect(studio.desk.say)
         self.scope.note = studio.recorder.note
+        studio.leaving.last.append(self.scope.end)
         self.recorded.capture_wanted.connect(self._show_capture)
         self._add(self.curves)
 

@@ -106,12 +106,14 @@ class Studio(QObject):
         self.late, self.loading = Late(self, ports), Loading()
         self.run.before = lambda reason, go_on: self.late.proof.keeping.before(reason, go_on)
         self.run.before_start = self.limits.careful
-        self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.window)
+        self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.tick, self.window)
         self.talk = Talk(self.connection, self.tick, self.terminal, self)
         self.editor = Editor(
             self.connection, self.session, self.run, self.desk.ask, self.importing.take, self.files.folder, data,
             self.window,
         )  # fmt: skip
+        self.leaving.careful_of_code = self.editor.careful
+        self.leaving.last.append(self.folding.remember)
         self.search = Search(seek or connect, clock, self)
         self.start = Start(self.connection, self.search, settings, ports, self.model, self.leaving, self.window)
         self.doctor = DoctorDesk(

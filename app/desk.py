@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QApplication, QDialog, QVBoxLayout
 
 import resources
@@ -231,19 +230,10 @@ class Desk(QObject):
         if menu.isEmpty():
             menu.addAction("Nothing opened yet").setEnabled(False)
 
-    def closing(self, event: QCloseEvent, files: Files) -> None:
-        """Unsaved work is asked about; the arrangement is remembered."""
-        if self._session.dirty:
-            event.ignore()
-            files.careful("Leave Twoletter Studio?", self.leave)
-            return
-        self.leave()
-
     def leave(self) -> None:
-        """Ends the program."""
+        """The end of the session: the arrangement is remembered, nothing is kept for after a crash."""
         self._settings.set("window", self._window.arrangement())
         self._session.close()
-        QApplication.quit()
 
 
 def _line(left: Recovered) -> str:

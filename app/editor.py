@@ -227,6 +227,10 @@ class Editor(QObject):
         answers = [("Do not keep it", lambda: go_on()), ("Save first", self.save)]
         self._ask("The code is not saved", "The changes in the code editor are in no file yet.", answers, "warning")
 
+    def careful(self, go_on: Callable[[], object]) -> None:
+        """Before the studio ends: the same, and then its window holds nobody up."""
+        self._careful(lambda: (self._close() if self.window is not None else None, go_on()))
+
     def _closing(self, event: QCloseEvent) -> None:
         if self.window is not None and self.window.dirty:
             event.ignore()

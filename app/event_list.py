@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import platform
-import threading
 import time
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from dataclasses import asdict
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,9 +18,11 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from app.about import version
+from app.background import in_background
 from app.connection import Connection
 from app.session import Session
 from app.tick import Tick
+from codegen.disk import save_bytes
 from codegen.files import dumps, setup_dumps
 from device.api import EventList, Kind
 from device.events import EventFile
@@ -89,8 +92,7 @@ class Happened(QObject):
         self.recording: Callable[[], bytes] = lambda: b""  # everything that is recorded
         self.events = EventList(EventFile(data / "events.jsonl"))
         self.ear = Ear(EventsHeard(self.events))
-        self._writing: threading.Thread | None = None
-        self._result = ""
+        self._tick = tick
         panel.show_events(self.events)
         panel.bundle_wanted.connect(self.ask_bundle)
         tick.each(self.once)
@@ -98,9 +100,6 @@ class Happened(QObject):
     def once(self) -> None:
         """With every tick."""
         self.ear.look()
-        if self._writing is not None and not self._writing.is_alive():
-            self._writing = None
-            self.said.emit(self._result)
 
     def ask_bundle(self) -> None:
         """Where the bundle is to go."""
@@ -113,8 +112,16 @@ class Happened(QObject):
 
         parts, folder = self.parts(), folder_of(self._data / FOLDER, self._connection.controller)
         picture = self._window.grab().toImage()
-        self._writing = threading.Thread(target=self._write, args=(path, parts, picture, folder), name="service bundle")
-        self._writing.start()
+        written = in_background(partial(self._write, path, parts, picture, folder))
+        self._tick.when_written(written, partial(self._written, path))
+
+    def _written(self, path: Path, future: Future[None]) -> None:
+        failure = future.exception()
+        if isinstance(failure, OSError):
+            self.said.emit(f"The service bundle was not saved: {failure.strerror or failure} ({path})")
+            return
+        future.result()
+        self.said.emit(f"Service bundle saved: {path}")
 
     def parts(self) -> dict[str, bytes]:
         """Every part of the bundle that is text, by its name."""
@@ -154,11 +161,7 @@ class Happened(QObject):
 
         newest = next(iter(kept(folder)), None) if folder is not None else None
         backup = newest.path if newest is not None else None
-        try:
-            path.write_bytes(zipped({**parts, "window.png": _png(picture), IN_BUNDLE: self.recording()}, backup))
-            self._result = f"Service bundle saved: {path}"
-        except OSError as reason:
-            self._result = f"The service bundle was not saved: {reason.strerror or reason} ({path})"
+        save_bytes(path, zipped({**parts, "window.png": _png(picture), IN_BUNDLE: self.recording()}, backup))
 
 
 def zipped(parts: Mapping[str, bytes], backup: Path | None) -> bytes:

@@ -55,6 +55,7 @@ class Late(QObject):
         """At the end; nothing more is made."""
         if self.making.done:
             self.at_machine.pads.close()
+            self.at_machine.tuning.book.close()
         self.making.done = True
 
     @property

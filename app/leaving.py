@@ -1,4 +1,5 @@
-"""Before the studio leaves a machine alone: what still goes on there, asked in words; STOP leaves with the window."""
+"""Before the studio leaves: what goes on at the machine and what is not saved is asked; what is on its way to the disk
+is waited for. STOP leaves with the window."""
 
 from __future__ import annotations
 
@@ -7,13 +8,13 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QCloseEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QAbstractItemView, QAbstractSpinBox, QApplication, QLineEdit, QWidget
 
 from app.connection import Connection
 from app.desk import Desk
 from app.files import Files
 from app.run import Run
-from app.tick import failure_of
+from app.tick import Tick, failure_of
 from app.work import Inquiry, inquire
 from device.api import Controller, Kind, State, StopState
 
@@ -37,10 +38,15 @@ class Leaving(QObject):
 
     said = Signal(str)
 
-    def __init__(self, connection: Connection, run: Run, desk: Desk, files: Files, window: QWidget) -> None:
+    def __init__(self, connection: Connection, run: Run, desk: Desk, files: Files, tick: Tick, window: QWidget) -> None:
         super().__init__(window)
         self._connection, self._run, self._desk, self._files, self._window = connection, run, desk, files, window
-        self._agreed = False  # while the window closes as it was agreed
+        self._tick = tick
+        self.careful_of_code: Callable[[Callable[[], object]], None] = lambda go_on: go_on() and None  # of the editor
+        self.last: list[Callable[[], object]] = []  # keep what is not kept yet
+        self._event: QCloseEvent | None = None  # while the window is asked to close
+        self._unwritten: int | None = None  # before the last was written; None: nobody is about to leave
+        self._gone = False  # all is agreed to and written: every window closes
         self._asking: Asking | None = None
         self._then: tuple[Controller, Callable[[], object]] | None = None  # once this one has stopped
         self._after: tuple[Controller, Callable[[], object]] | None = None  # once what is under way has ended there
@@ -48,12 +54,15 @@ class Leaving(QObject):
 
     def asked(self, event: QCloseEvent) -> None:
         """The window is to be closed."""
-        words = "" if self._agreed else self._at_once()
-        if words == "":
-            self._desk.closing(event, self._files)
+        event.setAccepted(self._gone)
+        if self._gone:
             return
-        event.ignore()
-        self.check(self._close)
+        self._event = event
+        if self._unwritten is None:
+            self.check(self._close)
+        else:  # a second time: the disk may hang; its thread goes on
+            self._leave()
+        self._event = None
 
     def careful(self, title: str, go_on: Callable[[], object]) -> None:
         """Turns to something else, after asking when the machine works: STOP reaches only what is connected."""
@@ -99,8 +108,9 @@ class Leaving(QObject):
         return None if controller.state is State.READY else UNKNOWN
 
     def look(self) -> None:
-        """With each tick: judges what the machine has answered, goes on once a stop is proved."""
+        """With each tick: judges what the machine has answered, goes on once a stop is proved, or all is written."""
         self._judge()
+        self._leave_written()
         if self._after is not None and not self._run.doing:
             (controller, again), self._after = self._after, None
             if controller is self._connection.controller:
@@ -160,6 +170,47 @@ class Leaving(QObject):
             self._agree()
 
     def _agree(self) -> None:
-        self._agreed = True
-        self._window.close()
-        self._agreed = False
+        """About the machine nothing is open; what is not saved is asked about next."""
+        _leave_field()
+        self._files.careful(TITLE, lambda: self.careful_of_code(self._end))
+
+    def _end(self) -> None:
+        """Keeps what is not kept, and closes when that is written."""
+        self._unwritten = self._tick.unwritten
+        for each in self.last:
+            each()
+        self._leave_written()
+        if self._unwritten is not None:
+            self.said.emit("Closes as soon as everything is written.")
+
+    def _leave_written(self) -> None:
+        if self._unwritten is None or self._tick.writing:
+            return
+        if self._tick.unwritten == self._unwritten:
+            self._leave()
+            return
+        self._unwritten = None
+        self.said.emit("Not left: something could not be written, as was just said. Closing again leaves without it.")
+
+    def _leave(self) -> None:
+        self._gone = True
+        self._desk.leave()
+        if self._event is not None:
+            self._event.accept()
+        else:
+            self._window.close()
+        QApplication.quit()  # asks every window once more
+        self._gone, self._unwritten = False, None
+
+
+def _leave_field() -> None:
+    """What was typed last is taken as if the field had been left; a cell may be one of the machine's and is not."""
+    field = QApplication.focusWidget()
+    if isinstance(field, QLineEdit | QAbstractSpinBox) and not isinstance(_above(field), QAbstractItemView):
+        field.clearFocus()
+
+
+def _above(field: QWidget) -> QWidget | None:
+    """What a cell is edited in."""
+    view = field.parentWidget()
+    return view.parentWidget() if view is not None else None

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import threading
 import time
 import zipfile
 from collections.abc import Callable
+from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
+from app.background import in_background
 from app.connection import Connection, Opened
 from app.deeds import Deeds
 from app.tick import Tick
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from app.compose import Studio
     from device.api import Notice
 
+T = TypeVar("T")
 FILES = f"Recordings and bundles (*{SUFFIX} *.zip)"
 SAVED = f"Recordings (*{SUFFIX})"
 LOOK_TICKS = 60  # between two looks at how much is kept, about two seconds
@@ -69,8 +71,7 @@ class Recorded(QObject):
         self.recording: Recording | None = None
         self._told: object = None
         self._listing: str | None = None
-        self._working: threading.Thread | None = None
-        self._found: Callable[[], None] = lambda: None
+        self._tick, self._working = studio.tick, False
         self._ticks = 0
         self._problem = ""
         self._join(studio.tick)
@@ -79,9 +80,6 @@ class Recorded(QObject):
 
     def once(self) -> None:
         """Notes what has changed; shows where the replay is."""
-        if self._working is not None and not self._working.is_alive():
-            self._working = None
-            self._found()
         self._note_controller(self._connection.controller)
         self._deeds.look()
         if self._recorder.problem != self._problem:  # said once, wherever the person looks
@@ -133,11 +131,11 @@ class Recorded(QObject):
 
     def open_path(self, path: Path) -> None:
         """Reads it beside the window's thread, then plays it."""
-        self._work(lambda: self._opened(path))
+        self._work(lambda: self._opened(path), _go_on, self._tick.when_done)
 
     def replay_own(self) -> None:
         """What this computer has recorded up to now."""
-        self._work(self._opened_own)
+        self._work(self._opened_own, _go_on, self._tick.when_done)
 
     def ask_save(self) -> None:
         """Where everything that is kept is to go."""
@@ -146,7 +144,7 @@ class Recorded(QObject):
 
     def save(self, path: Path) -> None:
         """Everything that is kept, as one file."""
-        self._work(lambda: self._saved(path))
+        self._work(lambda: save_bytes(path, self.kept()), partial(self._saved, path), self._tick.when_written)
 
     def kept(self) -> bytes:
         """The same as bytes, for a service bundle (beside the window's thread)."""
@@ -185,24 +183,31 @@ class Recorded(QObject):
         happenings = _happenings(recording)
         return lambda: self._begin(recording, happenings, "")
 
-    def _saved(self, path: Path) -> Callable[[], None]:
-        try:
-            save_bytes(path, self.kept())
-            words = f"Recording saved: {path}"
-        except OSError as reason:
-            words = f"The recording was not saved: {reason.strerror or reason} ({path})"
-        return lambda: self.said.emit(words)
+    def _saved(self, path: Path, future: Future[None]) -> None:
+        reason = future.exception()
+        if isinstance(reason, OSError):
+            self.said.emit(f"The recording was not saved: {reason.strerror or reason} ({path})")
+            return
+        future.result()
+        self.said.emit(f"Recording saved: {path}")
 
-    def _work(self, what: Callable[[], Callable[[], None]]) -> None:
-        if self._working is not None:
+    def _work(
+        self,
+        what: Callable[[], T],
+        then: Callable[[Future[T]], None],
+        tell: Callable[[Future[T], Callable[[Future[T]], None]], None],
+    ) -> None:
+        """One thing at a time beside the window."""
+        if self._working:
             self.said.emit("A recording is being read or written; a moment please.")
             return
 
-        def run() -> None:
-            self._found = what()
+        def done(future: Future[T]) -> None:
+            self._working = False
+            then(future)
 
-        self._working = threading.Thread(target=run, name="recording")
-        self._working.start()
+        self._working = True
+        tell(in_background(what), done)
 
     def _refuse(self, words: str) -> None:
         self.said.emit(words)
@@ -260,6 +265,11 @@ class Recorded(QObject):
             self.seek(0.0)
         elif self.player is not None:
             self.player.play(on)
+
+
+def _go_on(future: Future[Callable[[], None]]) -> None:
+    """What was read is shown."""
+    future.result()()
 
 
 def _happenings(recording: Recording) -> list[Happening]:

@@ -189,17 +189,34 @@ class Scope(QObject):
 
         told, derived = self._told(controller), self._body.choices.shown
 
-        def made() -> Capture:
-            found = replace(roll.capture(channels, -math.inf, math.inf), **told)
-            curves(found, derived)  # known by the time they are drawn
-            return found
+        made: list[Capture] = []
 
-        self._tick.when_done(in_background(made), self._kept_roll)
+        def work() -> str:
+            made.append(replace(roll.capture(channels, -math.inf, math.inf), **told))
+            curves(made[0], derived)  # known by the time they are drawn
+            return self._filed(made[0], " live") if made[0].count > 1 else ""
 
-    def _kept_roll(self, future: Future[Any]) -> None:
-        found: Capture = future.result()
-        if found.count > 1:
-            self._body.add(found, f"Live {found.when[11:]}")
+        self._tick.when_written(in_background(work), partial(self._kept_roll, made))
+
+    def _kept_roll(self, made: list[Capture], future: Future[str]) -> None:
+        failure = future.exception()
+        if isinstance(failure, OSError):
+            name = _no_file(failure)
+            self.said.emit(f"What was seen live is in {name}.")
+        else:
+            name = future.result()
+        if made[0].count > 1:
+            self._body.add(made[0], f"Live {made[0].when[11:]}")
+            if self.roll is None and self.job is None:
+                words = f"{made[0].count} values seen live; kept as {name}."
+                self._body.show_result(words, good=failure is None)
+
+    def end(self) -> None:
+        """The window is about to close: what was chosen last and what is seen live are kept."""
+        if self.roll is not None:
+            self.live(False)
+        if self._settling.isActive():
+            self.remember()
 
     def _told(self, controller: Controller) -> dict[str, Any]:
         """Where a stretch of the roll comes from."""
@@ -219,21 +236,25 @@ class Scope(QObject):
 
     def _keep(self, capture: Capture) -> str:
         """Every capture goes into a file, so that none is lost; the name of the file, or why there is none."""
+        try:
+            return self._filed(capture)
+        except OSError as reason:
+            return _no_file(reason)
+
+    def _filed(self, capture: Capture, sort: str = "") -> str:
+        """The name of its file; raises OSError."""
         from device.capture_file import save
 
-        stem = capture.when.replace(":", ".") or "capture"
+        stem = (capture.when.replace(":", ".") or "capture") + sort
         path = self._folder / f"{stem}.npz"
         number = 1
         while path.exists():
             number += 1
             path = self._folder / f"{stem} ({number}).npz"
-        try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            save(path, capture)
-            for old in sorted(self._folder.glob("*.npz"))[:-KEPT]:
-                old.unlink()
-        except OSError as reason:
-            return f"no file ({(reason.strerror or str(reason)).lower()})"
+        self._folder.mkdir(parents=True, exist_ok=True)
+        save(path, capture)
+        for old in sorted(self._folder.glob("*.npz"))[:-KEPT]:
+            old.unlink(missing_ok=True)
         return path.name
 
     def _packed(self, name: str, capture: Capture) -> bytes:
@@ -270,7 +291,7 @@ class Scope(QObject):
         from device.capture_file import save
 
         self._body.show_result(f"{path.name} is being written.")
-        self._tick.when_done(in_background(partial(save, path, capture)), partial(self._saved, path))
+        self._tick.when_written(in_background(partial(save, path, capture)), partial(self._saved, path))
 
     def _saved(self, path: Path, future: Future[Any]) -> None:
         failure = future.exception()
@@ -308,3 +329,7 @@ class Scope(QObject):
         capture: Capture = future.result()
         self._body.add(capture, path.name)
         self._body.show_result(f"{path.name}: {capture.count} values a channel.")
+
+
+def _no_file(reason: OSError) -> str:
+    return f"no file ({(reason.strerror or str(reason)).lower()})"

@@ -241,6 +241,11 @@ class Teach(QObject):
             self._way(False)
         self._panel.ended(f"Done: {len(self.table)} rows.")
 
+    def end(self) -> None:
+        """The window is about to close: a way that is being recorded goes into the table, which is kept."""
+        if self._seen is not None:
+            self._way(False)
+
     # ---- a whole way
 
     def _way(self, on: bool) -> None:
@@ -268,7 +273,7 @@ class Teach(QObject):
             teach.problems(Table(teach.units_of(setup), found[0]), setup)  # known by the time it is asked for
             return found
 
-        self._tick.when_done(in_background(work), partial(self._thinned, len(seen), setup, driving))
+        self._tick.when_written(in_background(work), partial(self._thinned, len(seen), setup, driving))
 
     def _thinned(self, readings: int, setup: Setup, driving: Driving, future: Future[Any]) -> None:
         """A way as rows; where there would be too many, they are coarser, and that is said."""

@@ -27,6 +27,8 @@ class Tick(QObject):
         self._panels: list[Panel] = []
         self._each: list[Callable[[], None]] = []
         self._pending: list[tuple[Future[Any], Callable[[Future[Any]], None]]] = []
+        self._writes: list[Future[Any]] = []
+        self.unwritten = 0  # what could not be written
         self._controller: Controller | None = None
         self._watched = NOTHING
         self._timer = QTimer(self)
@@ -59,6 +61,16 @@ class Tick(QObject):
         """Calls back, here in the window's own thread, once the future is finished; cancelled ones are forgotten."""
         self._pending.append((future, call))
 
+    def when_written(self, future: Future[Any], call: Callable[[Future[Any]], None]) -> None:
+        """The same of what is on its way to the disk: the window waits for it before it closes."""
+        self._writes.append(future)
+        self.when_done(future, call)
+
+    @property
+    def writing(self) -> bool:
+        """Whether something is still on its way to the disk."""
+        return bool(self._writes)
+
     def once(self) -> None:
         """One tick; tests call it themselves."""
         controller = self._controller
@@ -88,6 +100,9 @@ class Tick(QObject):
         done = [pair for pair in self._pending if pair[0].done()]
         self._pending = [pair for pair in self._pending if pair not in done]
         for future, call in done:
+            if future in self._writes:
+                self._writes.remove(future)
+                self.unwritten += future.cancelled() or future.exception() is not None
             if not future.cancelled():
                 call(future)
 

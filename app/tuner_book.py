@@ -107,7 +107,12 @@ class Book(QObject):
 
         if self._writer is None:
             self._writer = ThreadPoolExecutor(max_workers=1, thread_name_prefix="logbook")
-        self._tick.when_done(self._writer.submit(write), done)
+        self._tick.when_written(self._writer.submit(write), done)
+
+    def close(self) -> None:
+        """At the end: the last line is on the disk, and nobody waits for another one."""
+        if self._writer is not None:
+            self._writer.shutdown()
 
     def show(self, numbers: Sequence[int]) -> None:
         """These runs over each other; the last is the chosen one, with its numbers."""

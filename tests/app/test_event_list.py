@@ -122,7 +122,7 @@ def test_the_service_bundle_holds_everything(stage: Stage, tmp_path: Path) -> No
         stage.studio.at_machine.event_list.bundle, Qt.MouseButton.LeftButton
     )  # asks for a file; F12 still works
     stage.studio.at_machine.happened.save_bundle(path)
-    stage.until(lambda: stage.studio.at_machine.happened._writing is None)
+    stage.until(lambda: not stage.studio.tick.writing)
     with zipfile.ZipFile(path) as bundle:
         assert bundle.testzip() is None
         names = set(bundle.namelist())

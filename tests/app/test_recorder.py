@@ -357,7 +357,7 @@ def test_a_bundle_from_one_studio_opens_in_another(stage: Stage, other: Stage, t
     path = tmp_path / "service.zip"
     happened = stage.studio.at_machine.happened
     happened.save_bundle(path)
-    stage.until(lambda: happened._writing is None)
+    stage.until(lambda: not stage.studio.tick.writing)
     with zipfile.ZipFile(path) as bundle:
         assert "recording.tape" in bundle.namelist()
     other.studio.actions["open_recording"].trigger()  # asks for a file; the panel is in front
@@ -393,7 +393,7 @@ def test_what_can_not_be_opened_is_said(stage: Stage, tmp_path: Path) -> None:
     saved = tmp_path / "day.tape"
     studio.at_machine.recorded.save(saved)
     wait(stage, saved.is_file)
-    wait(stage, lambda: studio.at_machine.recorded._working is None)
+    wait(stage, lambda: not studio.at_machine.recorded._working)
     data = bytearray(saved.read_bytes())
     data[-40] ^= 1
     saved.write_bytes(data)
