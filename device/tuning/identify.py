@@ -26,6 +26,7 @@ FEWEST = 200  # samples of motion
 HARDLY = 6.0  # counts of motion
 FINE = 6  # counts of the largest jump to either side; of smaller ones counting makes some percent of error
 LOW_HZ, HIGH_HZ, SCANNED = 20.0, 420.0, 26
+COUNTED = (0.004, 0.07, 5.0)  # parts of the gain, see `counting_error`; of some hundred simulated axes
 SURE_GAIN = 0.15  # one sigma, as a part, above which a gain is not told
 POLE_UNIT = 10.0  # rad/s; what the search counts in
 Work = Generator[float, None, "Estimate | NotIdentified"]
@@ -172,6 +173,16 @@ def sigmas(found: Found) -> dict[str, float]:
     return result
 
 
+def counting_error(left: float, jump: int) -> float:
+    """One sigma, as a part of the gain, of what reading in whole counts makes beyond chance.
+
+    The counts that are lost follow the motion itself, so they lean to one side: the more, the smaller the jumps
+    (counts) are and the more the axis chatters between its counts, which leaves more unexplained.
+    """
+    always, counted, chattering = COUNTED
+    return math.hypot(always, (counted + chattering * max(0.0, left - COUNTING)) / max(1, jump))
+
+
 def explained(found: Found) -> float:
     """Part of the motion's variance, window by window."""
     weight, counts = found.data.weight, found.data.counts
@@ -209,7 +220,7 @@ def notes(found: Found, sigma: dict[str, float]) -> tuple[str, ...]:
     return tuple(said)
 
 
-def too_weak(found: Found, sigma: dict[str, float], moved: float) -> str | None:
+def too_weak(found: Found, sigma: dict[str, float], moved: float, counting: float) -> str | None:
     """Why an estimate must not be used."""
     gain = found.fit.plant.gain
     if moved < HARDLY or found.data.samples < FEWEST:
@@ -220,6 +231,11 @@ def too_weak(found: Found, sigma: dict[str, float], moved: float) -> str | None:
     if gain <= 0.0:
         return "The axis moves against the motor command: check the polarity of motor and encoder."
     if sigma["gain"] > SURE_GAIN * gain:
+        if counting > sigma["gain"] / 2.0:
+            return (
+                "With these gains the axis chatters between its counts, and what it is cannot be told from that: lower "
+                "KP and KD; the jumps can be larger then."
+            )
         return "The answer is too small to tell the inertia: allow more travel, or raise KP and KD."
     return None
 
@@ -251,8 +267,8 @@ def identifying(recordings: Sequence[Recording]) -> Work:
         candidates.append((yield from with_spring(base, 0.3 + 0.35 * n)))
         if at_rest(candidates[-1]) or rubs(candidates[-1]):
             break
-    result = concluded(candidates, moved)
     jump = max((abs(each) for recording in recordings for each in recording.steps), default=2 * FINE) // 2
+    result = concluded(candidates, moved, jump)
     if isinstance(result, Estimate) and jump < FINE:
         said = (
             f"The jumps were {jump} counts, more would have been too much for KP and KD: what is told here may be some "
@@ -283,7 +299,7 @@ def with_spring(base: Found, done: float) -> Generator[float, None, Found]:
     return min(good, key=lambda one: one.fit.cost) if good else base
 
 
-def concluded(candidates: list[Found], moved: float) -> Estimate | NotIdentified:
+def concluded(candidates: list[Found], moved: float, jump: int) -> Estimate | NotIdentified:
     """The simpler of the models, unless friction is plainly there."""
     best = candidates[-1]
     if len(candidates) > 1:
@@ -291,7 +307,9 @@ def concluded(candidates: list[Found], moved: float) -> Estimate | NotIdentified
         better = smooth.left > BETTER * rubbing.left
         best = rubbing if better and (rubs(rubbing) or smooth.left > AMISS * COUNTING) else smooth
     sigma = sigmas(best)
-    weak = too_weak(best, sigma, moved)
+    counting = counting_error(best.left, jump) * abs(best.fit.plant.gain)
+    sigma["gain"] = math.hypot(sigma["gain"], counting)
+    weak = too_weak(best, sigma, moved, counting)
     if weak:
         return NotIdentified(weak)
     plant = best.fit.plant

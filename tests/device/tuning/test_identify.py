@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 import time
 from dataclasses import replace
 
@@ -16,7 +17,7 @@ from device.tuning.loop import FACTORY, VOLTS, Gains
 from device.tuning.recording import Recording, Samples, every_sample
 from tests.device.tuning.axis import PERIOD, Axis
 from tests.device.tuning.thirty import MOTOR, rigid, spring
-from tests.long import count
+from tests.long import count, record
 
 
 def gain_of(plant: Plant) -> float:
@@ -256,3 +257,36 @@ def test_the_work_comes_in_pieces_that_nobody_notices() -> None:
 def test_a_kick_is_what_the_filter_makes_of_one_count() -> None:
     assert kick(FACTORY) == pytest.approx(4 * 70 * 20 / 65536)
     assert VOLTS == 20 / 65536  # dmc-1412-1414.txt l.4451
+
+
+def any_axis(chance: random.Random) -> tuple[Plant, Gains, int]:
+    """A rigid machine with gains up to ten times the factory's, and the travel."""
+    plant = rigid(
+        chance.choice([1, 3, 10, 30]), chance.choice([250, 500, 1000, 2500, 5000]), chance.choice([1.0, 2.0, 4.0]),
+        dry=chance.choice([0.0, 0.004, 0.01]), delay_samples=chance.choice([0, 0, 1, 2]),
+    )  # fmt: skip
+    stiff = math.exp(chance.uniform(0.0, math.log(10.0)))
+    return plant, Gains(kp=6 * stiff * chance.uniform(0.5, 1.5), kd=64 * stiff), chance.choice([40, 100, 300, 1000])
+
+
+def test_the_inertia_is_known_as_well_as_it_says() -> None:
+    """Whatever the gains: of those told at least nine in ten within two sigma, none beyond five."""
+    chance, off = random.Random(count(3, 4)), []
+    for _ in range(count(5, 60)):
+        plant, gains, travel = any_axis(chance)
+        found = identify([recorded(plant, travel, gains)])
+        if isinstance(found, Estimate):
+            off.append(abs(found.plant.gain - gain_of(plant)) / found.sigma["gain"])
+    print([round(each, 1) for each in sorted(off)])
+    command = "pytest tests/device/tuning/test_identify.py"
+    record("inertia told: most sigma off, of so many axes", command, 4, max(off), f"of {len(off)}")
+    assert len(off) >= count(3, 45)
+    assert max(off) < 5.0
+    assert sum(each > 2.0 for each in off) <= 0.1 * len(off)
+
+
+@pytest.mark.parametrize("lines", [1000, pytest.param(5000, marks=pytest.mark.long)])
+def test_what_chatters_between_counts_is_not_told(lines: int) -> None:
+    """KD of four times the factory's and dry friction: the fit comes out a quarter (three quarters) too small."""
+    plant = rigid(1, lines, dry=0.004)
+    assert "chatters between its counts" in refused(recorded(plant, 300, Gains(kp=23.5, kd=250)))
