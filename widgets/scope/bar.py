@@ -27,6 +27,7 @@ from device.curves import WINDOW_WORDS, Window
 from widgets.panel import set_text, show_role
 from widgets.parts.icons import icon
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces
 from widgets.parts.wrapping import WrappingRow
 
 SPANS = {"10 s": 10.0, "30 s": 30.0, "2 min": 120.0, "10 min": 600.0, "1 h": 3600.0}
@@ -46,28 +47,28 @@ class Bar(QWidget):
     view_chosen = Signal()
     drawn_otherwise = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None, at_once: bool = True) -> None:
         super().__init__(parent)
         self.stretch: tuple[float, float] | None = None  # of which the spectrum is calculated
-        self.capture, self.finish, self.cancel = (
-            QPushButton("Capture"),
-            QPushButton("Stop, read"),
-            QPushButton("Cancel"),
-        )
-        self.live, self.span = QPushButton("Live"), QComboBox()
-        self.views, self.windows, self.across, self.upward = QComboBox(), QComboBox(), QComboBox(), QComboBox()
-        self.over = QLabel("over")
-        self.cursors, self.sides_left, self.sides_right = (
-            QPushButton(text) for text in ("Cursors", "Channels", "Readings")
-        )
-        self.fit, self.save, self.open, self.picture, self.more = (QToolButton() for _ in range(5))
-        self.tools = (self.fit, self.save, self.open, self.picture)
-        self.progress, self.words = QProgressBar(), QLabel()
         self._busy = False
         self._sides = ("", "")  # of the last start
         self._shown: list[bool] = []
         self._fitting = False
+        self.making = Pieces(self._pieces())
+        if at_once:
+            self.making.finish()
+
+    def _pieces(self) -> Iterator[None]:
+        self.capture, self.finish, self.cancel, self.live, self.cursors, self.sides_left, self.sides_right = (
+            QPushButton(text, self)
+            for text in ("Capture", "Stop, read", "Cancel", "Live", "Cursors", "Channels", "Readings")
+        )
+        self.span, self.views, self.windows, self.across, self.upward = (QComboBox(self) for _ in range(5))
+        self.over, self.words, self.progress = QLabel("over", self), QLabel(self), QProgressBar(self)
+        self.fit, self.save, self.open, self.picture, self.more = (QToolButton(self) for _ in range(5))
+        self.tools = (self.fit, self.save, self.open, self.picture)
         self._name_all()
+        yield
         self._lay_out()
         self._connect()
         self.show_result("")
@@ -238,7 +239,7 @@ class Bar(QWidget):
             box.setMinimumContentsLength(12)
 
     def _lay_out(self) -> None:
-        apart = QWidget()
+        apart = QWidget(self)
         apart.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         row = WrappingRow(
             self.capture, self.finish, self.cancel, self.live, self.span, apart,

@@ -65,18 +65,26 @@ class Body(QWidget):
         """From the outside inwards: what gets another parent is dressed anew with all that is in it."""
         self._lay_out()
         yield
-        self.bar = Bar(self)
+        self.bar = Bar(self, at_once=False)
+        while not self.bar.making.step():
+            yield
         self.start = self.bar.capture
         self._whole.insertWidget(0, self.bar)
         yield
-        self.choices = Choices(self.choices_side.viewport())
+        self.choices = Choices(self.choices_side.viewport(), at_once=False)
+        self.choices.setUpdatesEnabled(False)  # until all of it is there
         self.choices_side.setWidget(self.choices)
+        while not self.choices.making.step():
+            yield
+        self.choices.setUpdatesEnabled(True)
         yield
         self.chart = Chart(self)
         self._middle.insertWidget(0, self.chart, 1)
         yield
-        self.readings, self.kept = Readings(self), Kept(self)
+        self.readings = Readings(self)
         self._beside.addWidget(self.readings, 1)
+        yield
+        self.kept = Kept(self.side)
         self.side.addTab(self.kept, "Captures")
         self._views = Views(self.choices)
         yield
@@ -84,6 +92,7 @@ class Body(QWidget):
         self._fit_room(self.width())
         yield
         self.redraw()
+        yield
 
     # -------------------------------------------------------------------- told
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
@@ -39,8 +39,9 @@ from device.capture import (
 )
 from device.curves import Derived
 from widgets.panel import set_text
+from widgets.parts.pieces import Pieces
 from widgets.parts.spin import indented
-from widgets.scope.slot import Slot
+from widgets.scope.slot import Slot, as_wide_as_there_is_room
 
 SLOTS = 4
 COUNT_WIDTH = 96  # px: four digits
@@ -59,25 +60,36 @@ class Choices(QWidget):
 
     changed = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None, at_once: bool = True) -> None:
         super().__init__(parent)
         self._model: Model | None = None
         self._setup: Setup | None = None
         self._tm = 0.0  # what the controller says; 0: not known
         self._count, self._axis, self._input = 500, "X", 1  # what the person wants, also where it does not fit now
-        self.slots = [Slot(number) for number in range(1, SLOTS + 1)]
-        self.derived = {kind: QCheckBox(kind) for kind in Derived}
-        self.every, self.count, self.begin = QComboBox(), QSpinBox(), QComboBox()
-        self.length, self.hint = QLabel(), QLabel()
-        self.axis, self.input, self.edge = QComboBox(), QSpinBox(), QComboBox()
-        self.level_of, self.level, self.level_unit = QComboBox(), QLineEdit("0"), QLabel()
-        self.before = QSpinBox()
-        for box in (self.count, self.input, self.before):
-            indented(box)
+        self.making = Pieces(self._pieces())
+        if at_once:
+            self.making.finish()
+
+    def _pieces(self) -> Iterator[None]:
+        """Channels, then how often, how long, from when on."""
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 8, 0)
+        self._column.setSpacing(4)
+        self.slots = [Slot(number, self) for number in range(1, SLOTS + 1)]
         for slot, usual in zip(self.slots, USUAL, strict=True):
             slot.wanted = usual
+            self._column.addWidget(slot)
+        yield
+        self.derived = {kind: QCheckBox(kind, self) for kind in Derived}
+        self.every, self.begin, self.axis, self.edge, self.level_of = (QComboBox(self) for _ in range(5))
+        self.count, self.input, self.before = (QSpinBox(self) for _ in range(3))
+        self.length, self.hint, self.level_unit = QLabel(self), QLabel(self), QLabel(self)
+        self.level = QLineEdit("0", self)
+        for box in (self.count, self.input, self.before):
+            indented(box)
         self._name_all()
         self._lay_out()
+        yield
         self._fill()
         self._connect()
         self._follow()
@@ -291,9 +303,8 @@ class Choices(QWidget):
         ):
             widget.setAccessibleName(name)
             widget.setToolTip(tip)
-        for box in (*(slot.what for slot in self.slots), self.every, self.begin, self.axis, self.edge, self.level_of):
-            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-            box.setMinimumContentsLength(8)
+        for box in (self.every, self.begin, self.axis, self.edge, self.level_of):
+            as_wide_as_there_is_room(box)
         for kind, box in self.derived.items():
             box.setAccessibleName(f"Also show {kind.lower()}")
         self.hint.setWordWrap(True)
@@ -301,16 +312,11 @@ class Choices(QWidget):
         self.level_unit.setProperty("role", "quiet")
 
     def _lay_out(self) -> None:
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(4)
-        for slot in self.slots:
-            column.addWidget(slot)
         also = QVBoxLayout()
         also.setSpacing(0)
         for box in self.derived.values():
             also.addWidget(box)
-        column.addLayout(also)
+        self._column.addLayout(also)
         form = self._form = QFormLayout()
         form.setContentsMargins(0, 4, 0, 0)
         form.setVerticalSpacing(4)
@@ -336,9 +342,11 @@ class Choices(QWidget):
             self.axis: (When.MOTION,), self.input: (When.INPUT,), self.level_of: (When.LEVEL,), level: (When.LEVEL,),
             self.edge: (When.INPUT, When.LEVEL), self.before: waits,
         }  # fmt: skip
-        column.addLayout(form)
-        column.addWidget(self.hint)
-        column.addStretch(1)
+        for field in self._only:  # what is never shown is never dressed
+            form.setRowVisible(field, False)
+        self._column.addLayout(form)
+        self._column.addWidget(self.hint)
+        self._column.addStretch(1)
 
     def _connect(self) -> None:
         for slot in self.slots:

@@ -40,9 +40,11 @@ class ScopePanel(Panel):
         while not body.making.step():
             yield
         self.body = body
-        self.setFocusProxy(body.start)
         self._tell()
+        yield
+        self.setFocusProxy(body.start)
         self.opened.emit()
+        yield
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)

@@ -7,13 +7,22 @@ from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QIcon, QPainter, QPixmap
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from device.capture import BY_NAME, Channel
 from widgets.parts.look import look
 
 NONE = "–"
 COLOURS = {"Blue": "axis_x", "Orange": "axis_y", "Green": "axis_z", "Purple": "axis_w", "Text": "text", "Grey": "quiet"}
+
+
+LEAST_WIDTH = 96  # px of a list
+
+
+def as_wide_as_there_is_room(box: QComboBox) -> None:
+    """Whatever its entries are; told to adjust to so many letters it would make its list at once, to be opened later."""
+    box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+    box.setMinimumWidth(LEAST_WIDTH)
 
 
 class Slot(QWidget):
@@ -26,7 +35,8 @@ class Slot(QWidget):
         self.number = number
         self.token = ""  # a colour the person chose; nothing: that of the axis
         self.wanted: Channel | None = None  # what the person chose, also while this controller does not have it
-        self.what, self.pen = QComboBox(), QToolButton()
+        self.what, self.pen = QComboBox(self), QToolButton(self)
+        as_wide_as_there_is_room(self.what)
         self.what.setAccessibleName(f"Channel {number}")
         self.pen.setAccessibleName(f"Colour of channel {number}")
         self.pen.setToolTip("Colour of the curve")
