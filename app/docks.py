@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from device.api import Kind, StopState
@@ -18,6 +19,44 @@ def settle() -> None:
         QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
 
+class Contained(QWidget):
+    """Lays out what is in it by itself; what is around it hears only when that takes more room, or less.
+
+    Qt lays out and paints the whole window, with all docks and diagrams, whenever any text in it changes its length.
+    """
+
+    def __init__(self, content: QWidget) -> None:
+        super().__init__()
+        self._content = content
+        content.setParent(self)
+        self.setSizePolicy(content.sizePolicy())
+        self._told = self.minimumSizeHint()
+
+    def sizeHint(self) -> QSize:
+        return self._content.sizeHint()
+
+    def minimumSizeHint(self) -> QSize:
+        return self._content.minimumSizeHint().expandedTo(self._content.minimumSize())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._content.setGeometry(self.rect())
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self._tell()
+
+    def event(self, event: QEvent) -> bool:
+        if event.type() is QEvent.Type.LayoutRequest:
+            self._tell()
+        return super().event(event)
+
+    def _tell(self) -> None:
+        if (least := self.minimumSizeHint()) != self._told:
+            self._told = least
+            self.updateGeometry()
+
+
 class Dock(QDockWidget):
     """One panel. `moves` gives it the border of the kind and a STOP of its own while it floats."""
 
@@ -30,7 +69,7 @@ class Dock(QDockWidget):
         self.content = content
         self.frame: KindFrame | None = None
         self.stop_button: StopButton | None = None
-        self.setWidget(self._framed(content) if moves else content)
+        self.setWidget(Contained(self._framed(content) if moves else content))
         self.topLevelChanged.connect(self._floats)
         self._no_title = QWidget()
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QEvent, QSize, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QStatusBar, QWidget
 
 from device.api import Job, Kind
 from widgets.panel import set_text
 from widgets.parts.kind import KindBadge
 from widgets.parts.short_label import ShortLabel
+
+STEP = 24  # px
+ASIDE = 16  # px: margins of the status bar
 
 
 class Progress(QWidget):
@@ -43,6 +47,32 @@ class Progress(QWidget):
             self.bar.setValue(value)
 
 
+class Parts(QWidget):
+    """A row whose width changes in steps: each change lays out the whole window, with all docks and diagrams."""
+
+    def __init__(self, *parts: QWidget) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addStretch(1)
+        for part in parts:
+            row.addWidget(part)
+
+    def event(self, event: QEvent) -> bool:
+        done = super().event(event)
+        if event.type() is QEvent.Type.LayoutRequest:
+            self.fit()
+        return done
+
+    def fit(self) -> None:
+        """As wide as it likes, or as there is room; a size that is fixed is what makes Qt ask nobody else."""
+        hint, width = self.sizeHint(), self.maximumWidth()
+        if not hint.width() <= width <= hint.width() + 2 * STEP:
+            width = -(-hint.width() // STEP) * STEP
+        room = self.parentWidget().width() - ASIDE if self.parentWidget() is not None else width
+        self.setFixedSize(min(width, max(room, self.minimumSizeHint().width())), hint.height())
+
+
 class Status(QStatusBar):
     """Permanent parts right, sentences of the moment left."""
 
@@ -52,9 +82,15 @@ class Status(QStatusBar):
         self.badge, self.position = KindBadge(), QLabel()
         self.link, self.program = ShortLabel(), ShortLabel()
         self.progress = Progress()
-        self.addPermanentWidget(self.progress)
-        for widget in (self.position, self.program, self.link, self.badge):
-            self.addPermanentWidget(widget)
+        self._parts = Parts(self.progress, self.position, self.program, self.link, self.badge)
+        self.addPermanentWidget(self._parts)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self._parts.minimumSizeHint().width() + ASIDE, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._parts.fit()
 
     def show_link(self, kind: Kind, words: str) -> None:
         """What is connected and how fast it is read."""

@@ -35,6 +35,7 @@ class Window(QMainWindow):
     def __init__(self, centre: QWidget) -> None:
         super().__init__()
         self.setDockNestingEnabled(True)
+        self.setAnimated(False)  # each step would lay out and paint everything, diagrams included
         for corner, area in ((Qt.Corner.BottomLeftCorner, LEFT), (Qt.Corner.BottomRightCorner, RIGHT)):
             self.setCorner(corner, area)
         self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, self.tabPosition(BOTTOM).North)
