@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 STANDS_S = 0.2  # the pointer of a ring, beyond two intervals, before it is asked whether it records at all
+SHORT_SHARE = 0.05  # of the whole; what is less than wanted from before a trigger by more is told
 ELEMENT = re.compile(r"[ -][0-9]{10}\.[0-9]{4}")  # of QU while VF is 10.4; anything else is read framed
 
 
@@ -250,6 +251,15 @@ class Recording:
             self._trigger, self._early = found_at(
                 trigger, plan.channels, self._values, self._trigger - self._early, self._trigger
             )
+            self._tell_share(self._trigger, oldest)
+
+    def _tell_share(self, kept: int, lost: int) -> None:
+        """Fewer values from before the trigger than wanted: it came early, or the line was slow to end a short ring."""
+        count, wanted = self._plan.count, self._plan.trigger.pre
+        if kept < (wanted - SHORT_SHARE) * count and not self._job.finished:
+            why = f"a ring of {count} turns too fast for this line; take more values, or a longer interval."
+            words = f"Only {kept} values are from before the trigger, {wanted * count:.0f} were wanted: "
+            self._note = f"{self._note} {words}{why if lost else 'it came sooner.'}".strip()
 
     def _arm(self) -> Steps[None]:
         """What is true before the recording begins is no trigger; what changes from then on is one."""

@@ -12,6 +12,7 @@ from device.capture import Capture, Channel, Plan, Trigger, When, channels, obje
 from device.capturing import CaptureJob, capture
 from device.stop import StopState
 from device.tasks import LinkError, NotAllowed, Refused
+from device.transport import LineSettings
 from tests.long import count
 from tests.rig import Rig
 
@@ -105,6 +106,28 @@ def test_the_begin_of_a_move_is_found_to_the_element(channel: Channel) -> None:
     begun = row != 0 if channel == COMMANDED else (row.astype(int) >> 15 & 1).astype(bool)
     assert begun[place] and not begun[:place].any()
     assert found.times[place] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("baud", "values", "waited", "said"),
+    [
+        (4800, 257, 1.0, "a ring of 257 turns too fast for this line"),  # two rounds a second; a look takes a fifth
+        (19200, 280, 1.0, ""),
+        (19200, 1000, 0.3, "it came sooner"),  # 0.3 s and the move's way at 512 a second, of 400 wanted
+    ],
+)
+def test_fewer_values_from_before_a_trigger_than_wanted_are_told(
+    baud: int, values: int, waited: float, said: str
+) -> None:
+    rig = moving(line=LineSettings(baud=baud))
+    job = capture(rig.controller, Plan((POSITION, COMMANDED), 1, values, Trigger(When.MOTION, axis="X", pre=0.4)))
+    rig.until(lambda: job.phase.startswith("waiting:"))
+    rig.run(waited)
+    rig.type(MOVE)
+    found = done(rig, job)
+    few = f"Only {found.trigger} values are from before the trigger, {0.4 * values:.0f} were wanted: "
+    assert (found.trigger < 0.35 * values) == bool(said)
+    assert found.note.startswith(few + said) if said else not found.note
 
 
 def test_a_level_and_an_input_are_found_to_the_element() -> None:
