@@ -32,10 +32,8 @@ class Cell(QWidget):
     ) -> None:
         super().__init__(parent)
         self.editor: Any = editor
-        self.unit = QLabel()
-        self.counts = QLabel()
+        self.unit, self.counts, self.problem = QLabel(self), QLabel(self), QLabel(self)
         self.counts.setProperty("role", "quiet")
-        self.problem = QLabel()
         self.problem.setProperty("role", "warning")
         for label in (self.counts, self.problem):
             label.setWordWrap(True)
@@ -48,7 +46,12 @@ class Cell(QWidget):
         self._name = name
 
     def _lay_out(self, editor: QWidget, *, wide: bool, foot: int) -> None:
-        top = QHBoxLayout()
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        top, below = QHBoxLayout(), QWidget(self)
+        whole.addLayout(top)
+        whole.addWidget(below)
         top.setContentsMargins(0, 0, 0, 0)
         top.setSpacing(8)
         policy = editor.sizePolicy().horizontalPolicy()
@@ -60,7 +63,6 @@ class Cell(QWidget):
             top.addWidget(self.counts, 1)
         if not stretches:
             top.addStretch(0 if wide else 1)
-        below = QWidget()
         below.setMinimumHeight(foot)
         lines = QVBoxLayout(below)
         lines.setContentsMargins(0, 0, 0, 4 if foot > SPACE else 0)
@@ -69,11 +71,6 @@ class Cell(QWidget):
             lines.addWidget(self.counts)
         lines.addWidget(self.problem)
         lines.addStretch(1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addLayout(top)
-        whole.addWidget(below)
 
     def show_facts(self, unit: str, counts: str, warning: str | None, problem: str | None) -> None:
         """Shows unit and counts, and the problem sentence instead of the counts while there is one."""

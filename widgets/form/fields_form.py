@@ -53,7 +53,7 @@ class FieldsForm(QWidget):
         self.letters: list[tuple[QLabel, str, tuple[str, ...]]] = []  # before a row of these fields
         self.column = QVBoxLayout(self)
         self.column.setContentsMargins(0, 0, 0, 0)
-        self.inside = QWidget()
+        self.inside = QWidget(self)
         self.grid = QGridLayout(self.inside)
 
     # ---- showing
@@ -171,7 +171,8 @@ class FieldsForm(QWidget):
     # ---- building
 
     def _build(self) -> None:
-        old, self.inside = self.inside, QWidget()
+        """From the outside inwards: what is put into something later is dressed anew, and all that is in it."""
+        old, self.inside = self.inside, QWidget(self)
         self.cells.clear()
         self.labels.clear()
         self.letters.clear()
@@ -185,10 +186,10 @@ class FieldsForm(QWidget):
             self.grid.setContentsMargins(0, 0, 0, 0)
             self.grid.setHorizontalSpacing(8 if self.tight else 12)
             self.grid.setVerticalSpacing(0)
-            self._fill(members)
             self.last_column = QVBoxLayout()
-            self.last_column.addLayout(self.grid)
             beside.addLayout(self.last_column)
+            self.last_column.addLayout(self.grid)
+            self._fill(members)
         self.column.addWidget(self.inside)
         old.hide()
         self.column.removeWidget(old)
