@@ -84,6 +84,7 @@ class AtMachine:
         self.tape = RecorderPanel()
         self.recorded = Recorded(studio, studio.recorder, self.tape, studio.files.folder)
         self.recorded.said.connect(studio.desk.say)
+        studio.leaving.last.append(self.recorded.once)
         self.happened.recording = self.recorded.kept
         self._add(self.tape)
         self._add(self.recorded.ear)

@@ -274,4 +274,5 @@ def test_the_whole_program_ends_and_what_was_done_last_is_recorded(tmp_path: Pat
     ended = subprocess.run([sys.executable, "-c", LIFE], env=around, timeout=60, capture_output=True, text=True)
     assert ended.returncode == 0, ended.stderr
     (tape,) = tmp_path.glob("*/recordings/*.tape")
-    assert any("Exit" in str(note.payload) for note in open_recording(tape).notes)
+    done = [str(note.payload) for note in open_recording(tape).notes]
+    assert any(words.startswith("Program: ") for words in done) and "Exit" in done
