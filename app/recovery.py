@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Iterator
+from concurrent.futures import Future
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
 from PySide6.QtCore import QLockFile
 
+from app.background import in_background
 from codegen.disk import FileUnreadable, save_text
 from codegen.document import Document
 from codegen.files import dumps, loads
@@ -51,10 +54,18 @@ class Recovery:
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
         self.file, self.lock = _free(folder)
+        self._writing, self._turn = threading.Lock(), 0
 
     def write(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
         """Keeps `document`; the former copy stays until the new one is complete on disk."""
-        save_text(self.file, _kept(document, original, now, fingerprint))
+        self._write(self._next(), document, original, now, fingerprint)
+
+    def write_beside(
+        self, document: Document, original: Path | None, now: datetime, fingerprint: str = ""
+    ) -> Future[None]:
+        """The same without waiting: a disk may take long. What is asked for later goes before."""
+        turn = self._next()
+        return in_background(lambda: self._write(turn, document, original, now, fingerprint))
 
     def set_aside(self, document: Document, original: Path | None, now: datetime, fingerprint: str = "") -> None:
         """Keeps unsaved work that makes room for other work, among what is found later."""
@@ -64,7 +75,9 @@ class Recovery:
 
     def clear(self) -> None:
         """Nothing is unsaved."""
-        self.file.unlink(missing_ok=True)
+        self._next()
+        with self._writing:
+            self.file.unlink(missing_ok=True)
 
     def close(self) -> None:
         """The session ends in good order."""
@@ -78,6 +91,16 @@ class Recovery:
     def forget(self, recovered: Recovered) -> None:
         """Removes one of them."""
         recovered.file.unlink(missing_ok=True)
+
+    def _next(self) -> int:
+        self._turn += 1
+        return self._turn
+
+    def _write(self, turn: int, document: Document, original: Path | None, now: datetime, fingerprint: str) -> None:
+        text = _kept(document, original, now, fingerprint)
+        with self._writing:
+            if turn == self._turn:
+                save_text(self.file, text)
 
     def _left_behind(self) -> Iterator[Recovered]:
         for file in sorted(self.folder.glob(f"*{SUFFIX}")):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from concurrent.futures import Future
 from datetime import datetime
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from codegen.history import History
 from codegen.setup import Setup
 
 AUTOSAVE_MS = 1000
+LOOKED_AT_MS = 50  # whether a copy that is written beside the window could be
 
 
 class NoPath(Exception):
@@ -55,7 +57,10 @@ class Session(Edited):
         self._claim = Claim()
         self._recovery = Recovery(recovery_folder) if recovery_folder is not None else None
         self._autosave = QTimer(self, singleShot=True, interval=autosave_ms)
-        self._autosave.timeout.connect(self.autosave_now)
+        self._autosave.timeout.connect(self._keep_beside)
+        self._keeping: Future[None] | None = None
+        self._kept = QTimer(self, interval=LOOKED_AT_MS)
+        self._kept.timeout.connect(self._look_after)
         self.document_changed.connect(self._keep_soon)
 
     # ---- what is open
@@ -157,11 +162,12 @@ class Session(Edited):
             else:
                 self._recovery.clear()
         except OSError as failure:
-            self.autosave_failed.emit(f"Unsaved work cannot be kept safe: {failure.strerror or failure}")
+            self._not_kept(failure)
 
     def close(self) -> None:
         """The session ends in good order: no recovery copy stays behind."""
         self._autosave.stop()
+        self._kept.stop()
         self._claim.release()
         if self._recovery is not None:
             self._recovery.close()
@@ -171,6 +177,26 @@ class Session(Edited):
     def _keep_soon(self) -> None:
         if not self._autosave.isActive():
             self._autosave.start()
+
+    def _keep_beside(self) -> None:
+        if self._recovery is None or not self.dirty:
+            self.autosave_now()
+        else:
+            self._keeping = self._recovery.write_beside(self.document, self.path, self._now(), self._file.fingerprint)
+            self._kept.start()
+
+    def _look_after(self) -> None:
+        if self._keeping is None or not self._keeping.done():
+            return
+        self._kept.stop()
+        failure = self._keeping.exception()
+        if isinstance(failure, OSError):
+            self._not_kept(failure)
+        elif failure is not None:
+            raise failure
+
+    def _not_kept(self, failure: OSError) -> None:
+        self.autosave_failed.emit(f"Unsaved work cannot be kept safe: {failure.strerror or failure}")
 
     def _start(self, document: Document, path: Path | None, *, saved: bool) -> None:
         old = self.document
