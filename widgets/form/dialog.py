@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from collections.abc import Iterator
+
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDialog,
@@ -21,6 +23,7 @@ from widgets.form.offers import Offers
 from widgets.form.room import keep_on_screen, room, settle
 from widgets.parts.foot import foot
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces, dressed, in_breaths
 
 LEAST_WIDTH = 560  # px
 BAR = 14  # width of a scroll bar, px (theme.toml)
@@ -56,6 +59,7 @@ class InstructionDialog(QDialog):
     added = Signal(object, str, bool)  # instruction, section ("" = its own), whether the dialog stays open
     changed = Signal(object)
     help_requested = Signal(str)
+    mirror_wanted = Signal(str)  # as the form says
 
     def __init__(
         self,
@@ -67,6 +71,7 @@ class InstructionDialog(QDialog):
         section: str = "",
         note: str = "",
         parent: QWidget | None = None,
+        at_once: bool = True,
     ) -> None:
         super().__init__(parent)
         self.new = new
@@ -75,15 +80,48 @@ class InstructionDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(instruction.title if new else f"Change: {instruction.title}")
         self.setProperty("helpPage", instruction.title)
-        self.form = InstructionForm(offers)
+        self._form = InstructionForm(offers, parent=self)
         self.section = SectionButtons()
         self.section.choose([section or usual_section(instruction)])
         self.note = note_line(note)
         self.buttons = self._buttons()
         self._lay_out(instruction, where)
-        self.form.refreshed.connect(self._refresh)
-        self.form.show_instruction(instruction)
-        self.form.fields.focus_first()
+        self._form.refreshed.connect(self._refresh)
+        self._form.mirror_wanted.connect(self.mirror_wanted)
+        self._making = Pieces(in_breaths(self._fill(instruction)))
+        self._turns = QTimer(self)  # between what else the window has to do
+        self._turns.timeout.connect(self.grow)
+        self.finished.connect(self._turns.stop)
+        if at_once:
+            self._making.finish()
+
+    @property
+    def form(self) -> InstructionForm:
+        """With all its fields: whoever asks for it cannot wait for them."""
+        while self._turns.isActive():
+            self.grow()
+        return self._form
+
+    # ---- making it
+
+    def _fill(self, instruction: Instruction) -> Iterator[None]:
+        """In pieces, as a form of many fields takes as long as many turns of the window."""
+        yield from self._form.showing(instruction)
+        yield from dressed(self)
+        self._form.fields.focus_first()
+
+    def show_when_made(self) -> None:
+        """In front once all of it is there; until then nothing of it can be seen."""
+        self._turns.start(0)
+
+    def grow(self) -> None:
+        """The next piece; the last one shows it."""
+        if self._making.step():
+            self._turns.stop()
+            self.show()
+            self.raise_()
+            self.activateWindow()
+            self._form.fields.focus_first()
 
     # ---- looks
 
@@ -113,11 +151,11 @@ class InstructionDialog(QDialog):
         column.addLayout(heading)
         if self.new and instruction.section == "C/M":
             column.addLayout(self._section_row())
-        column.addWidget(self.form, 1)
+        column.addWidget(self._form, 1)
         column.addWidget(self.note)
         *adds, away, explains = self.buttons.values()
         column.addWidget(foot(*adds, away=away, explains=explains))
-        self.form.area.content_changed.connect(self.fit)
+        self._form.area.content_changed.connect(self.fit)
 
     def _section_row(self) -> QHBoxLayout:
         row = QHBoxLayout()
@@ -171,7 +209,7 @@ class InstructionDialog(QDialog):
     def _fit(self, present: QSize) -> None:
         self._fitting = True
         settle(self)
-        limit, sides, area = room(self), self.column.contentsMargins(), self.form.area
+        limit, sides, area = room(self), self.column.contentsMargins(), self._form.area
         around = sides.left() + sides.right()
         least = max(self.column.minimumSize().width(), area.least_width() + around)
         width = min(max(present.width(), least), limit.width())
@@ -185,7 +223,7 @@ class InstructionDialog(QDialog):
 
     def _ask_for_height(self, height: int, width: int) -> int:
         """Gives the fields a height; the height the whole dialog then has."""
-        self.form.ask_for_height(height)
+        self._form.ask_for_height(height)
         settle(self)
         return self.column.totalHeightForWidth(width)
 
@@ -203,7 +241,7 @@ class InstructionDialog(QDialog):
         self.form.show_offers(offers)
 
     def _refresh(self) -> None:
-        problem = self.form.problem()
+        problem = self._form.problem()
         for name in ("Add", "Add and next", "Change"):
             if name in self.buttons:
                 self.buttons[name].setEnabled(not problem)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from functools import partial
 from itertools import groupby, pairwise
 from typing import Any
@@ -29,6 +29,7 @@ AXIS_SETS = ("axes", "slaves")  # names of the fields that say which axes take p
 BELOW = 176  # least height of a picture there, px
 HIGH = 3  # rows above a list that leave room below its entries
 MOST_ROWS = 12  # a form that is longer has its last fields beside the others
+Rows = Generator[None, None, int]  # pieces of some rows; the first row below them
 Key = tuple[str, str]  # field name, axis letter ("" for a field that is not per axis)
 
 
@@ -60,13 +61,19 @@ class FieldsForm(QWidget):
 
     def show_item(self, item: Any) -> None:
         """Shows `item`; only another kind of item builds the form anew."""
+        for _ in self.showing(item):
+            pass
+
+    def showing(self, item: Any) -> Iterator[None]:
+        """The same in pieces."""
         if type(item) is not type(self.item):
             self.item = item
-            self._build()
+            yield from self._build()
         self.item = item
         for (name, axis), cell in self.cells.items():
             cell.editor.setValue(_part(getattr(item, name), axis))
-        self.refresh()
+            yield
+        yield from self._refreshing()
 
     def show_offers(self, offers: Offers) -> None:
         """Other names in the lists; another machine builds the form anew."""
@@ -91,6 +98,10 @@ class FieldsForm(QWidget):
 
     def refresh(self) -> None:
         """Shows and hides fields, and tells units, counts and problems as they are now."""
+        for _ in self._refreshing():
+            pass
+
+    def _refreshing(self) -> Iterator[None]:
         for name, widgets in self.labels.items():
             visible = read.shown(self.item, name)
             for widget in widgets:
@@ -99,6 +110,7 @@ class FieldsForm(QWidget):
             axis.setVisible(any(self.is_shown(name, letter) for name in names))
         for key, cell in self.cells.items():
             self._refresh_cell(key, cell)
+            yield
 
     def _refresh_cell(self, key: Key, cell: Cell) -> None:
         name, axis = key
@@ -170,7 +182,7 @@ class FieldsForm(QWidget):
 
     # ---- building
 
-    def _build(self) -> None:
+    def _build(self) -> Iterator[None]:
         """From the outside inwards: what is put into something later is dressed anew, and all that is in it."""
         old, self.inside = self.inside, QWidget(self)
         self.cells.clear()
@@ -189,7 +201,7 @@ class FieldsForm(QWidget):
             self.last_column = QVBoxLayout()
             beside.addLayout(self.last_column)
             self.last_column.addLayout(self.grid)
-            self._fill(members)
+            yield from self._fill(members)
         self.column.addWidget(self.inside)
         old.hide()
         self.column.removeWidget(old)
@@ -197,11 +209,11 @@ class FieldsForm(QWidget):
         if self.isVisible():
             self._order_tabs()
 
-    def _fill(self, members: Mapping[str, fields.Field]) -> None:
+    def _fill(self, members: Mapping[str, fields.Field]) -> Iterator[None]:
         row = 0
         for per_axis, group in _groups(members):
             add = self._add_rows if not per_axis else self._add_list if self.narrow else self._add_table
-            row = add(group, row)
+            row = yield from add(group, row)
         self.grid.setRowStretch(row, 1)
         self.grid.setColumnStretch(5, 1)
 
@@ -210,7 +222,7 @@ class FieldsForm(QWidget):
         super().showEvent(event)
         self._order_tabs()
 
-    def _add_rows(self, members: Mapping[str, fields.Field], row: int) -> int:
+    def _add_rows(self, members: Mapping[str, fields.Field], row: int) -> Rows:
         for name, field in members.items():
             editor = make_editor(field, self.offers, narrow=self.narrow)
             cell = self._cell(name, "", field, editor, field.label, wide=not self.narrow)
@@ -225,6 +237,7 @@ class FieldsForm(QWidget):
                 self.grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignTop)
                 self.grid.addWidget(cell, row, 1, 1, 5)
             row += 1
+            yield
         return row
 
     def _label(self, field: fields.Field, editor: QWidget) -> QLabel:
@@ -236,7 +249,7 @@ class FieldsForm(QWidget):
         label.setToolTip(field.help)
         return label
 
-    def _add_table(self, members: Mapping[str, fields.Field], row: int) -> int:
+    def _add_table(self, members: Mapping[str, fields.Field], row: int) -> Rows:
         """Values of several axes: one row for each axis, one column for each field."""
         for column, (name, field) in enumerate(members.items(), start=1):
             self.labels[name] = [self._heading(field)]
@@ -248,9 +261,10 @@ class FieldsForm(QWidget):
                 editor = make_axis_editor(field, self.offers)
                 cell = self._cell(name, letter, field, editor, f"{field.label} {letter}", wide=False)
                 self.grid.addWidget(cell, row, column, Qt.AlignmentFlag.AlignTop)
+                yield
         return row + 1
 
-    def _add_list(self, members: Mapping[str, fields.Field], row: int) -> int:
+    def _add_list(self, members: Mapping[str, fields.Field], row: int) -> Rows:
         """Values of several axes where there is little room: one field after the other, its axes below each other."""
         for name, field in members.items():
             self.labels[name] = [self._heading(field)]
@@ -261,6 +275,7 @@ class FieldsForm(QWidget):
                 editor = make_axis_editor(field, self.offers, narrow=True)
                 cell = self._cell(name, letter, field, editor, f"{field.label} {letter}", wide=False)
                 self.grid.addWidget(cell, row, 1, 1, 5, Qt.AlignmentFlag.AlignTop)
+                yield
             row += 1
         return row
 

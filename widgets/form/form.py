@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
@@ -130,10 +132,16 @@ class InstructionForm(QWidget):
 
     def show_instruction(self, instruction: Instruction) -> None:
         """Shows `instruction`; typing places stay where they are if it is of the same kind."""
+        for _ in self.showing(instruction):
+            pass
+
+    def showing(self, instruction: Instruction) -> Iterator[None]:
+        """The same in pieces."""
         other = type(instruction) is not type(self.fields.item)
-        self.fields.show_item(instruction)
+        yield from self.fields.showing(instruction)
         if other:
             self._show_picture(instruction)
+            yield
             self.nothing.setVisible(not self.fields.cells)
             self.setProperty("helpPage", instruction.title)
         self._refresh()

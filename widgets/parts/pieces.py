@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+
+BREATH_S = 0.006  # of work, before the window has a turn
+AT_ONCE = 16  # widgets that are dressed in one go
+DRESSED = Qt.WidgetAttribute.WA_WState_Polished
 
 
 class Pieces:
@@ -22,3 +30,20 @@ class Pieces:
         """All that is left, for whoever cannot wait for the ticks."""
         while not self.step():
             pass
+
+
+def in_breaths(making: Iterator[object], clock: Callable[[], float] = time.perf_counter) -> Iterator[None]:
+    """The same in fewer pieces: small ones together, as far as they take no longer than a breath."""
+    began = clock()
+    for _ in making:
+        if clock() - began >= BREATH_S:
+            yield
+            began = clock()
+
+
+def dressed(widget: QWidget) -> Iterator[None]:
+    """Puts the style sheet on all that is in a widget before it is shown, a few at a time."""
+    while bare := [each for each in widget.findChildren(QWidget) if not each.testAttribute(DRESSED)]:
+        for each in bare[:AT_ONCE]:
+            each.ensurePolished()
+        yield

@@ -96,15 +96,14 @@ class Dialogs(QObject):
     ) -> InstructionDialog:
         offers = offers_of(self.session.document, getattr(self.view, "live", None), place)
         window = self.view.window()
-        dialog = InstructionDialog(instruction, offers, new=new, where=where, section=section, note=note, parent=window)
+        dialog = InstructionDialog(
+            instruction, offers, new=new, where=where, section=section, note=note, parent=window, at_once=False
+        )
         self.open.append(dialog)
         dialog.finished.connect(lambda _: self.open.remove(dialog))
         dialog.help_requested.connect(self.help_requested)
-        dialog.form.mirror_wanted.connect(self._mirror)
-        dialog.show()
-        dialog.raise_()
-        dialog.activateWindow()
-        dialog.form.fields.focus_first()
+        dialog.mirror_wanted.connect(self._mirror)
+        dialog.show_when_made()
         return dialog
 
     def _added(
