@@ -115,15 +115,15 @@ def meant(former: Former, c: Controller) -> bool:
 
 
 @contextmanager
-def taken(c: Controller, words: str) -> Iterator[None]:
-    """Nobody moves anything by hand meanwhile; `words` say why."""
+def taken(c: Controller, axis: str, words: str) -> Iterator[None]:
+    """Nobody moves anything by hand meanwhile; `words` say why. A line that is closed stops this axis."""
     if c.motion.busy:
         raise NotAllowed(f"Not started: {c.motion.busy} is moved by hand. Let go first.")
-    c.motion.taken = words
+    c.motion.taken, c.motion.taken_axis = words, axis
     try:
         yield
     finally:
-        c.motion.taken = ""
+        c.motion.taken = c.motion.taken_axis = ""
 
 
 def present(

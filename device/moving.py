@@ -69,7 +69,7 @@ class Motion:
         self._ended: Future[Any] | None = None
         self._settling: Future[Any] | None = None  # speeds and ramps put back behind a STOP
         self.setup: Setup | None = None
-        self.taken = ""  # why nothing may be moved by hand: an axis is being tuned
+        self.taken = self.taken_axis = ""  # why nothing may be moved by hand: an axis is being tuned
         self.latch = False
 
     # ---------------------------------------------------------------- holding
@@ -179,8 +179,10 @@ class Motion:
         self.release()
 
     def last_words(self) -> bytes:
-        """What ends it when the line is closed: a stop of what moves by hand."""
+        """What ends it when the line is closed: a stop of what moves by hand, or is tuned or brought to life."""
         now = self._now
+        if self.taken and not self._c.door.question:
+            return f"ST {self.taken_axis}\r".encode()
         if now is None or not self._busy() or self._c.door.question:
             return b""
         return f"ST {now.axis if isinstance(now, Lease) else now.axes}\r".encode()

@@ -53,10 +53,11 @@ class Rig:
         line: LineSettings = LINE,
         began: float = 0.0,
         tap: Callable[[Transport], Transport] = lambda line: line,
+        there: Simulation | None = None,  # the machine has been on for a while, with somebody else at its port
         **more: Any,
     ) -> None:
-        self.simulation = Simulation(model_named(model), plants, baud=line.baud, compiled=COMPILED)
-        self.began, self.openable, self._tap = began, openable, tap
+        self.simulation = there or Simulation(model_named(model), plants, baud=line.baud, compiled=COMPILED)
+        self.began, self.openable, self._tap = began - self.simulation.ticks / 1_024_000, openable, tap
         if revision:
             self.simulation.unit.revision = lambda: revision  # type: ignore[method-assign]
         if program:

@@ -34,7 +34,7 @@ def guarded(
     lasting: bool = False,
 ) -> Steps[T]:
     """Runs `body` with the former values, `also` of these, on disk; then motor off and, if not `lasting`, all back."""
-    with taken(c, f"axis {axis} is being brought to life. Wait for the end of the step, or press STOP."):
+    with taken(c, axis, f"axis {axis} is being brought to life. Wait for the end of the step, or press STOP."):
         names = tuple(dict.fromkeys((*KEPT, *also)))
         former = yield from present(c, axis, names, folder, now, place=place)
         return (yield from kept(c, former, lambda: body(former), lambda _: power_off(c, axis), lasting=lasting))

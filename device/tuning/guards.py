@@ -87,7 +87,7 @@ class Guard:
 def guarded(c: Controller, guard: Guard, folder: Path, body: Callable[[Former], Steps[T]], now: datetime) -> Steps[T]:
     """Narrows, runs `body`, puts back; what cannot be put back now stays on disk."""
     words = f"axis {guard.axis} is being tuned. Wait for its end, or cancel it."
-    with recording(c, words), taken(c, words):
+    with recording(c, words), taken(c, guard.axis, words):
         former, around = yield from _begin(c, guard, folder, now)
         began = c.clock()
 
