@@ -26,6 +26,11 @@ class Pieces:
             self.done = next(self._making, self) is self
         return self.done
 
+    def each(self) -> Iterator[None]:
+        """For what is itself made in pieces, of which this is a part."""
+        while not self.step():
+            yield
+
     def finish(self) -> None:
         """All that is left, for whoever cannot wait for the ticks."""
         while not self.step():

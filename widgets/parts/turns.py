@@ -20,6 +20,16 @@ class Turns:
         """All that there are; what is drawn into them next waits. One that waits already keeps its place."""
         wanted = list(views)
         self._waiting = [each for each in self._waiting if each in wanted]
+        self._wait(wanted)
+
+    def bring(self, views: Iterable[QGraphicsView]) -> None:
+        """These come into sight or get another size all at once: each has nothing in its place until its turn."""
+        wanted = list(views)
+        for view in wanted:
+            view.setUpdatesEnabled(False)
+        self._wait(wanted)
+
+    def _wait(self, wanted: Iterable[QGraphicsView]) -> None:
         for view in wanted:
             if view not in self._waiting:
                 view.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.NoViewportUpdate)
@@ -31,6 +41,9 @@ class Turns:
             return
         view = self._waiting.pop(0)
         view.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.MinimalViewportUpdate)
-        view.viewport().repaint()
+        if view.updatesEnabled():
+            view.viewport().repaint()
+        else:
+            view.setUpdatesEnabled(True)  # paints it with the next turn of the event loop
         if self._waiting:
             self._timer.start()

@@ -66,16 +66,14 @@ class Body(QWidget):
         self._lay_out()
         yield
         self.bar = Bar(self, at_once=False)
-        while not self.bar.making.step():
-            yield
+        yield from self.bar.making.each()
         self.start = self.bar.capture
         self._whole.insertWidget(0, self.bar)
         yield
         self.choices = Choices(self.choices_side.viewport(), at_once=False)
         self.choices.setUpdatesEnabled(False)  # until all of it is there
         self.choices_side.setWidget(self.choices)
-        while not self.choices.making.step():
-            yield
+        yield from self.choices.making.each()
         self.choices.setUpdatesEnabled(True)
         yield
         self.chart = Chart(self)

@@ -37,8 +37,7 @@ class ScopePanel(Panel):
 
         body = Body(self, at_once=False)
         self._column.addWidget(body)
-        while not body.making.step():
-            yield
+        yield from body.making.each()
         self.body = body
         self._tell()
         yield

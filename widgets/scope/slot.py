@@ -20,7 +20,7 @@ LEAST_WIDTH = 96  # px of a list
 
 
 def as_wide_as_there_is_room(box: QComboBox) -> None:
-    """Whatever its entries are; told to adjust to so many letters it would make its list at once, to be opened later."""
+    """Whatever its entries are; told to adjust to so many letters it would make what opens at once."""
     box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
     box.setMinimumWidth(LEAST_WIDTH)
 

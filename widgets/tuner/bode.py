@@ -6,6 +6,7 @@ Import it late: pyqtgraph takes longer to load than the first window may take to
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from device.tuning.loop import Bode
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces
 from widgets.parts.plot import Plot
 from widgets.tuner.plots import stroke
 
@@ -82,22 +84,24 @@ class BodePlot(QWidget):
 
     target_wanted = Signal(float, float)  # crossover in rad/s, phase margin in degrees
 
-    def __init__(self, gain: BodePart, phase: BodePart, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self.gain, self.phase = gain, phase
         self._shown: Bode | None = None
         self._crossover, self._margin = 0.0, 0.0
-        self.crossover, self.below, self.margin = Handle(True), Handle(True), Handle(False)
-        self.below.label.setVisible(False)  # its value stands beside the upper one
-        for line, other in ((self.crossover, self.below), (self.below, self.crossover)):
-            line.sigPositionChanged.connect(lambda moved, other=other: self._along(moved, other))
-        self.margin.sigPositionChanged.connect(lambda _: self._tell())
         self._followed: list[tuple[BodePart, list[bool]]] = []  # what follows its curves again after a drag
-        for line in (self.crossover, self.below, self.margin):
-            line.sigDragged.connect(lambda _: self._hold())
-            line.sigPositionChangeFinished.connect(self._dragged)
-        self.margin.setBounds((LEAST_PHASE - 180.0, MOST_PHASE - 180.0))
+        self.making = Pieces(self._pieces())
+
+    def _pieces(self) -> Iterator[None]:
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        self.gain = BodePart("Bode plot, gain", parent=self)
+        column.addWidget(self.gain, 1)
+        yield
+        self.phase = BodePart("Bode plot, phase", parent=self)
+        column.addWidget(self.phase, 1)
         self.phase.setXLink(self.gain)
+        yield
         for plot in (self.gain, self.phase):
             plot.setLogMode(x=True, y=False)
             plot.getAxis("bottom").setTicks([[(math.log10(each), f"{each:g}") for each in HERTZ_TICKS]])
@@ -105,12 +109,10 @@ class BodePlot(QWidget):
             plot.setAccessibleDescription(
                 "Ctrl with left and right moves the crossover, with up and down the phase margin; Shift: ten times."
             )
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.gain, 1)
-        column.addWidget(self.phase, 1)
-        self._make_items()
+        self._make_curves()
+        yield
+        self._make_handles()
+        yield
         self.dress()
         self._draw()
 
@@ -155,22 +157,33 @@ class BodePlot(QWidget):
 
     # ---- drawn
 
-    def _make_items(self) -> None:
+    def _make_curves(self) -> None:
         """Everything once; what changes are the values, which is quicker than drawing anew."""
         self.gain.addLegend(offset=(-8, 8))
         self.curves = {
             name: (self.gain.plot(name=name), self.phase.plot()) for name in ("Axis", "Loop")
         }  # gain and phase of each
+        self.gain.name_sides("", "Gain, dB")
+        self.phase.name_sides("Frequency, Hz", "Phase, °")
+
+    def _make_handles(self) -> None:
         self._levels = [pyqtgraph.InfiniteLine(pos=level, angle=0) for level in (0.0, -180.0)]
         self.gain.addItem(self._levels[0])
         self.phase.addItem(self._levels[1])
         room = pyqtgraph.InfiniteLine(pos=MOST_PHASE - 180.0, angle=0, pen=pyqtgraph.mkPen(None))  # for the handle
         self.phase.addItem(room)
+        self.crossover, self.below, self.margin = Handle(True), Handle(True), Handle(False)
+        self.below.label.setVisible(False)  # its value stands beside the upper one
+        self.margin.setBounds((LEAST_PHASE - 180.0, MOST_PHASE - 180.0))
         self.gain.addItem(self.crossover)
         for handle in (self.below, self.margin):
             self.phase.addItem(handle)
-        self.gain.name_sides("", "Gain, dB")
-        self.phase.name_sides("Frequency, Hz", "Phase, °")
+        for line, other in ((self.crossover, self.below), (self.below, self.crossover)):
+            line.sigPositionChanged.connect(lambda moved, other=other: self._along(moved, other))
+        self.margin.sigPositionChanged.connect(lambda _: self._tell())
+        for line in (self.crossover, self.below, self.margin):
+            line.sigDragged.connect(lambda _: self._hold())
+            line.sigPositionChangeFinished.connect(self._dragged)
 
     def dress(self) -> None:
         """In the colours of now."""
@@ -235,7 +248,7 @@ class BodePlot(QWidget):
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
-        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "_levels"):
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and self.making.done:
             self.dress()
 
 

@@ -60,8 +60,8 @@ class ManualPage(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.gains = GainsBox()
-        self.defaults, self.present = QPushButton("Restore defaults"), QPushButton("As in the controller")
+        self.gains = GainsBox(self)
+        self.defaults, self.present = QPushButton("Restore defaults", self), QPushButton("As in the controller", self)
         self.defaults.setToolTip("KP 6, KI 0, KD 64 into the fields; nothing is sent")
         self.present.setToolTip("The gains that the controller holds into the fields")
         column = _column(self)

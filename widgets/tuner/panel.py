@@ -208,8 +208,7 @@ class TunerPanel(Panel):
             part.setVisible(index != LOGBOOK)
         for part in (self.box.drive, self.box.drive_label):
             part.setVisible(index == AUTOMATIC)
-        if self.bode_plot is not None:
-            self.bode_plot.setVisible(index == MODEL)
+        self.results.show_bode(index == MODEL)
         self._turn()
         self._show_usable()
         self.page_opened.emit(index)
@@ -230,47 +229,39 @@ class TunerPanel(Panel):
         outer.addStretch(0)
 
     def _make(self) -> Iterator[None]:
-        """Everything that needs pyqtgraph, with the first look at it: a piece with each tick, so that nothing waits."""
-        from widgets.parts.plot import Plot
+        """Everything that needs pyqtgraph, with the first look at it: a piece with each tick, so that nothing waits.
 
-        yield
-        from widgets.tuner.bode import BodePart, BodePlot
+        From the outside inwards: what gets another parent is dressed anew with all that is in it.
+        """
         from widgets.tuner.pages import AutomaticPage, LogbookPage, ManualPage, ModelPage
-        from widgets.tuner.plots import StepPlot
         from widgets.tuner.step_box import StepBox
 
-        self.box = StepBox()
+        self._frame()
         yield
-        self.manual = ManualPage()
+        self.box = StepBox(self._side, self._column.parentWidget())
+        self._side_column.insertWidget(1, self.box)
+        self._column.insertWidget(0, self.box.fields)
         yield
-        self.automatic, self.model = AutomaticPage(), ModelPage()
+        self._fill_column()
         yield
-        self.logbook = LogbookPage()
+        self.manual = ManualPage(self.pages)
+        self._pages.addWidget(self.manual)
         yield
-        plots: list[Plot] = []
-        for name in ("Step response", "Motor command"):
-            plots.append(Plot(name, parent=self.results))
-            yield
-        step_plot = StepPlot(*plots)
+        self.automatic, self.model = AutomaticPage(self.pages), ModelPage(self.pages)
         yield
-        parts: list[BodePart] = []
-        for name in ("Bode plot, gain", "Bode plot, phase"):
-            parts.append(BodePart(name, parent=self.results))
-            yield
-        bode_plot = BodePlot(*parts)
-        yield
-        self.results.take(step_plot, bode_plot)
-        yield
-        self._connect()
-        yield
-        self._arrange()
-        yield
-        self._sides.addWidget(self._controls())
-        yield
+        self.logbook = LogbookPage(self.pages)
+        for page in (self.automatic, self.model, self.logbook):
+            page.hide()
+            self._pages.addWidget(page)
         self._turn()
+        self._side.setUpdatesEnabled(True)
+        yield
+        yield from self.results.pieces()
+        self._connect()
         yield
         self._made = True
         self.open_page(MANUAL)
+        self.results.appear()
 
     def _connect(self) -> None:
         from device.tuning.loop import FACTORY
@@ -292,52 +283,48 @@ class TunerPanel(Panel):
         model.run_wanted.connect(lambda: self.predicted_wanted.emit(self.asked))
         model.moves_wanted.connect(lambda: self.moves_wanted.emit(self.asked))
 
-    def _arrange(self) -> None:
-        left = QWidget()
-        self._column = QVBoxLayout(left)
-        self._column.setContentsMargins(0, 0, 8, 0)
-        self._column.setSpacing(8)
-        self._column.addLayout(self._top())
-        self._column.addLayout(self._gains_side())
-        self._column.addWidget(self.box.fields)
-        self._column.addStretch(1)
-        self._scroll = QScrollArea()
+    def _frame(self) -> None:
+        """All may scroll but what starts and ends a run, and how it ended."""
+        self._sides = QHBoxLayout(self._area)
+        self._sides.setContentsMargins(0, 0, 0, 0)
+        self._side = QWidget(self._area)
+        self._sides.addWidget(self._side)
+        column = self._side_column = QVBoxLayout(self._side)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.setSpacing(6)
+        self._scroll = QScrollArea(self._side)
         self._scroll.setWidgetResizable(True)
         self._scroll.setFrameShape(QFrame.Shape.NoFrame)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        left = QWidget(self._scroll.viewport())
+        self._column = QVBoxLayout(left)
+        self._column.setContentsMargins(0, 0, 8, 0)
+        self._column.setSpacing(8)
+        self._column.addStretch(1)
         self._scroll.setWidget(left)
-        self._sides = QHBoxLayout(self._area)
-        self._sides.setContentsMargins(0, 0, 0, 0)
-
-    def _controls(self) -> QWidget:
-        """All may scroll but what starts and ends a run, and how it ended."""
+        column.addWidget(self._scroll, 1)
         self.result.setWordWrap(True)
         self.result.setProperty("role", "quiet")
         self.result.setAccessibleName("Result")
-        self._side = QWidget()
-        column = QVBoxLayout(self._side)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(6)
-        column.addWidget(self._scroll, 1)
-        column.addWidget(self.box)
         column.addWidget(self.result)
-        return self._side
+        for part in (self._side, self.results):  # shown when it is whole
+            part.setUpdatesEnabled(False)
 
-    def _gains_side(self) -> QVBoxLayout:
-        column = QVBoxLayout()
-        column.setSpacing(8)
-        pages = QVBoxLayout(self.pages)
-        pages.setContentsMargins(0, 0, 0, 0)
-        for page in (self.manual, self.automatic, self.model, self.logbook):
-            pages.addWidget(page)
-            page.hide()
-        column.addWidget(self.pages)
+    def _fill_column(self) -> None:
+        """Axis and pages above, what is done with the gains below them."""
+        self._column.insertLayout(0, self._top())
+        gains = QVBoxLayout()
+        gains.setSpacing(8)
+        self._pages = QVBoxLayout(self.pages)
+        self._pages.setContentsMargins(0, 0, 0, 0)
+        gains.addWidget(self.pages)
         row = QHBoxLayout()
         row.addWidget(self.use)
         row.addWidget(self.burn)
         row.addStretch(1)
-        column.addLayout(row)
-        return column
+        gains.addLayout(row)
+        self._column.insertLayout(1, gains)
+        self._turn()
 
     def _top(self) -> QHBoxLayout:
         row = QHBoxLayout()
@@ -345,7 +332,7 @@ class TunerPanel(Panel):
         self.axes.setAccessibleName("Axis to tune")
         self.axes.setToolTip("Axis to tune")
         self.axes.setMaximumWidth(64)
-        self._axis_label = QLabel("Axis")
+        self._axis_label = QLabel("Axis", self._side)
         row.addWidget(self._axis_label)
         row.addWidget(self.axes)
         row.addSpacing(4)
@@ -378,4 +365,4 @@ class TunerPanel(Panel):
         needed = self._scroll.widget().minimumSizeHint().width() + self._scroll.verticalScrollBar().width()
         left = max(LEFT, needed + 12)
         self._side.setMaximumWidth(left + 24 if wide else 16_777_215)
-        self._side.setMinimumWidth(left if wide else 0)
+        self._side.setMinimumWidth(left + 24 if wide else 0)

@@ -5,7 +5,7 @@ Import it late: pyqtgraph takes longer to load than the first window may take to
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from device.tuning.metrics import Response
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces
 from widgets.parts.plot import Plot
 from widgets.parts.turns import Turns
 
@@ -36,20 +37,26 @@ class Curve:
 class StepPlot(QWidget):
     """Commanded and actual position over the motor command; or the position error in place of the positions."""
 
-    def __init__(self, position: Plot, torque: Plot, parent: QWidget | None = None) -> None:
+    def __init__(self, turns: Turns, parent: QWidget) -> None:
         super().__init__(parent)
-        self.position, self.torque = position, torque
         self._curves: tuple[Curve, ...] = ()
         self._scale, self._unit, self._letter, self._limit, self.error = 1.0, "counts", "X", 10.0, False
-        self._turns = Turns(self)
-        self.torque.setXLink(self.position)
-        self.torque.setMaximumHeight(150)
-        self.position.addLegend(offset=(-8, -8))
+        self._turns = turns
+        self.making = Pieces(self._pieces())
+
+    def _pieces(self) -> Iterator[None]:
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
+        self.position = Plot("Step response", parent=self)
         column.addWidget(self.position, 3)
+        yield
+        self.torque = Plot("Motor command", parent=self)
+        self.torque.setXLink(self.position)
+        self.torque.setMaximumHeight(150)
         column.addWidget(self.torque, 1)
+        yield
+        self.position.addLegend(offset=(-8, -8))
         self.draw()
 
     def show_scale(self, scale: float, unit: str, letter: str) -> None:
@@ -120,7 +127,7 @@ class StepPlot(QWidget):
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
-        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and hasattr(self, "position"):
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.PaletteChange) and self.making.done:
             self.draw()
 
 

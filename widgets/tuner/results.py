@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from widgets.panel import set_text
+from widgets.parts.turns import Turns
 
 if TYPE_CHECKING:
     from device.tuning.metrics import Metrics
@@ -25,20 +26,45 @@ class Results(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._turns = Turns(self)
         self.error, self.metrics = QCheckBox("Position error"), QLabel()
         self.save, self.zero = QPushButton("Save data…"), QPushButton("Zero position")
         self.step_plot: StepPlot | None = None
         self.bode_plot: BodePlot | None = None
 
-    def take(self, step_plot: StepPlot, bode_plot: BodePlot) -> None:
-        """The diagrams have been made."""
-        self.step_plot, self.bode_plot = step_plot, bode_plot
+    def pieces(self) -> Iterator[None]:
+        """The diagrams, in their places from the start."""
+        from widgets.tuner.bode import BodePlot
+        from widgets.tuner.plots import StepPlot
+
+        step_plot, bode_plot = StepPlot(self._turns, self), BodePlot(self)
         bode_plot.hide()
+        self._lay_out(step_plot, bode_plot)
+        yield
+        for plot in (step_plot, bode_plot):
+            yield from plot.making.each()
+            yield
+        self.step_plot, self.bode_plot = step_plot, bode_plot
         self.error.toggled.connect(step_plot.show_error)
         self.error.toggled.connect(self.error_chosen)
         self.zero.clicked.connect(self.zero_wanted)
         self.save.clicked.connect(self.save_wanted)
-        self._lay_out(step_plot, bode_plot)
+
+    def appear(self) -> None:
+        """All is in its place."""
+        self._bring()
+        self.setUpdatesEnabled(True)
+
+    def show_bode(self, on: bool) -> None:
+        """The Bode plot over the step, or the step alone."""
+        if self.bode_plot is not None and self.bode_plot.isHidden() == on:
+            self._bring()
+            self.bode_plot.setVisible(on)
+
+    def _bring(self) -> None:
+        assert self.bode_plot is not None and self.step_plot is not None
+        step, bode = self.step_plot, self.bode_plot
+        self._turns.bring((bode.gain, bode.phase, step.position, step.torque))
 
     def show_curves(self, curves: Sequence[Curve], metrics: Metrics | None, torque_limit: float) -> None:
         """Responses over each other, the last one in front with its numbers."""

@@ -33,7 +33,7 @@ TOP_VOLTS = Fraction("9.9982")
 
 
 class StepBox(QWidget):
-    """What starts and ends a run; `fields` has a place of its own.
+    """What starts and ends a run; `fields` has a place of its own, in `beside`.
 
     Emits `edited` with every change; the tick of `free` falls whenever what would happen has changed.
     """
@@ -42,12 +42,14 @@ class StepBox(QWidget):
     start = Signal()
     cancel = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget, beside: QWidget) -> None:
         super().__init__(parent)
-        self.step, self.volts, self.seconds, self.drive = QLineEdit(), QLineEdit("9.9982"), QComboBox(), QComboBox()
-        self.unit, self.words, self.fields = QLabel(), QLabel(), QWidget()
-        self.free = QCheckBox("I have looked: this way is free")
-        self.begin, self.end = QPushButton("Start step"), QPushButton("Cancel")
+        self.fields = fields = QWidget(beside)
+        self.step, self.volts = QLineEdit(fields), QLineEdit("9.9982", fields)
+        self.seconds, self.drive = QComboBox(fields), QComboBox(fields)
+        self.unit, self.words = QLabel(fields), QLabel(self)
+        self.free = QCheckBox("I have looked: this way is free", self)
+        self.begin, self.end = QPushButton("Start step", self), QPushButton("Cancel", self)
         self._setup: Setup | None = None
         self._axis = "X"
         self._agreed = ""
