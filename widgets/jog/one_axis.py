@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
 from PySide6.QtCore import Signal
@@ -35,6 +35,7 @@ from widgets.jog.speed import SpeedRow, round_number
 from widgets.panel import set_text, show_role
 from widgets.parts.axis_bar import AxisBar, Marks
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces, dressed
 from widgets.parts.units import scale_of, shown
 
 INCREMENTS = ("0.01", "0.1", "1", "10")
@@ -58,7 +59,7 @@ class OneAxisPage(QWidget):
     axis_changed = Signal()
     speed_kept = Signal(str, str)  # slow, medium or fast; the speed
 
-    def __init__(self, setup: Setup, parent: QWidget | None = None) -> None:
+    def __init__(self, setup: Setup, parent: QWidget | None = None, at_once: bool = True) -> None:
         super().__init__(parent)
         self.item = beginning(setup, setup.letters[0])
         self._setup = setup
@@ -66,7 +67,7 @@ class OneAxisPage(QWidget):
         self._unit = unit_of(setup.axis(self.item.axis))
         self._numbers: dict[str, OneAxis] = {}  # what was typed, by its unit
         self._reason = ""
-        self.form = FieldsForm(Offers(setup), narrow=False)
+        self.form = FieldsForm(Offers(setup), narrow=False, parent=self)
         self.form.edited.connect(self._edited)
         self.place, self.ghost = QLabel("–"), QLabel()
         self.travel, self.fast = AxisBar(self.item.axis), SpeedRow()
@@ -79,10 +80,20 @@ class OneAxisPage(QWidget):
         self.go = QPushButton("Go to position")
         self.routine, self.home, self.zero = QComboBox(), QPushButton("Home"), QPushButton("Zero here")
         self.presets = [QPushButton(text) for text in INCREMENTS]
+        self.making = Pieces(self._fill())
+        if at_once:
+            self.making.finish()
+
+    def _fill(self) -> Iterator[None]:
+        """In pieces."""
         self._lay_out()
+        yield
         self._connect()
-        self.form.show_item(self.item)
+        yield
+        yield from self.form.showing(self.item)
         self._edited(self.item)
+        yield
+        yield from dressed(self)
 
     # ---- what it shows
 

@@ -23,6 +23,7 @@ from widgets.jog.speed import key_of, speeds_of
 from widgets.jog.stack import Stack
 from widgets.panel import Panel, set_text, show_role
 from widgets.parts.axis_bar import Marks
+from widgets.parts.pieces import Pieces, in_breaths
 
 if TYPE_CHECKING:
     from codegen.document import Document
@@ -74,6 +75,7 @@ class JogPanel(Panel):
         self.holder.renewed.connect(self.renewed)
         self.holder.released.connect(self.released)
         self._made = Pages(self)
+        self._later = Pieces(in_breaths(self._made.others(lambda: self._setup)))
         self.pages, self.buttons = Stack(), [QPushButton(name) for name in NAMES]
         self.open_page = ONE
         self.empty, self.result, self.arrows = QLabel(OFFLINE), QLabel(), ArrowLine()
@@ -155,6 +157,7 @@ class JogPanel(Panel):
             self.drive.show_usable(reason, motion.alone)
         self.halt.setEnabled(bool(motion.busy))
         self._show_arrows()
+        self._later.step()
 
     def show_ghost(self, ghost: Mapping[str, int]) -> None:
         """Where axes will stop, counts: held, on their way, or looked at. Comes with every tick, seen or not."""
@@ -298,8 +301,8 @@ class JogPanel(Panel):
     def pieces(self) -> Iterator[None]:
         """The page that is open at first; it is arranged with the tick after."""
         if self._setup is not None:
-            self._made.page(self.open_page, self._setup)
-        yield
+            yield from in_breaths(self._made.making(self.open_page, self._setup))
+            yield self._arrange(self._made.page(self.open_page, self._setup))
 
     def _fit(self) -> None:
         """The open page for the machine that is connected; made when it is seen, whatever is connected."""
@@ -315,15 +318,16 @@ class JogPanel(Panel):
         if self.pages.currentWidget() is not page:
             if self.pages.indexOf(page) < 0:
                 self.pages.addWidget(page)
-                self._fitted.pop(page, None)
             self.pages.setCurrentWidget(page)
             self.pages.updateGeometry()
-        wanted = (self._setup, controller.axes or self._setup.letters)
-        if linked and wanted != self._fitted.get(page):
-            self._fitted[page] = wanted
-            self._show_setup(page, *wanted)
+        self._arrange(page)
 
-    def _show_setup(self, page: QWidget, setup: Setup, letters: str) -> None:
+    def _arrange(self, page: QWidget) -> None:
+        setup, linked = self._setup, self.controller is not None and self.controller.kind is not Kind.OFFLINE
+        letters = (self.controller and self.controller.axes) or (setup.letters if setup else "")
+        if not linked or setup is None or (setup, letters) == self._fitted.get(page):
+            return
+        self._fitted[page] = setup, letters
         self.more.show_axes(setup, letters)
         self._letters = letters = "".join(letter for letter in letters if letter in setup.letters)
         page.show_setup(setup, letters)  # type: ignore[attr-defined]
@@ -338,9 +342,9 @@ class JogPanel(Panel):
             self._open(ONE)
 
     def _show_kept(self) -> None:
-        if self._setup is None:
+        if (setup := self._setup) is None:
             return
-        speeds = {each: speeds_of(each, self._setup, self._kept) for each in self._letters or self._setup.letters}
+        speeds = {each: speeds_of(each, setup, self._kept) for each in self._letters or setup.letters}
         if self.one is not None:
             self.one.show_speeds(speeds.get(self.axis, {}))
         for page in (self.drive, self.saved):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from PySide6.QtCore import Signal
@@ -21,6 +21,7 @@ from widgets.jog.one_axis import enable
 from widgets.jog.speed import SpeedRow
 from widgets.panel import set_text, show_role
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces, dressed
 
 ALONG = ("radius", "speed", "acceleration", "deceleration")  # in the unit of the first axis
 
@@ -37,14 +38,19 @@ class TogetherPage(QWidget):
     stop_wanted = Signal()
 
     def __init__(
-        self, item: Any, make: Callable[[Any, Setup], Plan | str], setup: Setup, parent: QWidget | None = None
+        self,
+        item: Any,
+        make: Callable[[Any, Setup], Plan | str],
+        setup: Setup,
+        parent: QWidget | None = None,
+        at_once: bool = True,
     ) -> None:
         super().__init__(parent)
         self.item, self._fresh = item, item
         self._make, self._setup = make, setup
         self._units, self._letters = units_of(setup), setup.letters
         self.plan: Plan | None = None
-        self.form = FieldsForm(Offers(setup))
+        self.form = FieldsForm(Offers(setup), parent=self)
         self.form.edited.connect(self._edited)
         self.words, self.ends, self.fast = QLabel(), QLabel(), SpeedRow(presets=False)
         self._told_for: object = None
@@ -54,8 +60,17 @@ class TogetherPage(QWidget):
         self.go.clicked.connect(self._go)
         self.halt.clicked.connect(self.stop_wanted)
         self.fast.chosen.connect(self._take_speed)
-        self.form.show_item(item)
-        self._edited(item)
+        self.making = Pieces(self._fill())
+        if at_once:
+            self.making.finish()
+
+    def _fill(self) -> Iterator[None]:
+        """In pieces."""
+        yield
+        yield from self.form.showing(self.item)
+        self._edited(self.item)
+        yield
+        yield from dressed(self)
 
     def show_setup(self, setup: Setup, letters: str) -> None:
         """Another machine."""
