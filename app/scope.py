@@ -39,6 +39,7 @@ SETTLE_MS = 500  # typing a number is one change of the settings
 CAPTURES = "Captures (*.csv *.npz)"
 PARTLY_S = 0.4  # between two pictures of a capture under way
 ROOM = QSize(1180, 720)  # of the window of its own
+WORTH_S = 5.0  # a channel that was watched so long is kept when another takes its place
 KEPT = 200  # captures that are kept in files by themselves; the oldest go
 
 
@@ -174,8 +175,8 @@ class Scope(QObject):
             self._watched, self._rolled = controller, body.live_channels
             controller.watch(OWNER, keys, each_round=keys)
             controller.hurry(True)
-        if before is not None and former is not None and self.roll is None:
-            self._keep_roll(before, channels, former)
+        if before is not None and former is not None:
+            self._keep_roll(before, [each for each in channels if self._ends(before, each)], former)
         body.show_roll(self.roll)
         without = [channel.label for channel in body.choices.channels if not channel.live_key]
         if on and not keys:
@@ -183,10 +184,18 @@ class Scope(QObject):
         elif on and without:
             body.show_result(f"Live without {' and '.join(without)}: the controller tells it only in captures.")
 
+    def _ends(self, before: Roll, channel: Channel) -> bool:
+        """Whether nothing comes to it any more; what was only passed over in a list is not worth keeping."""
+        if self.roll is None:
+            return True
+        return channel.live_key not in self.roll.tracks and before.tracks[channel.live_key].lasts_s >= WORTH_S
+
     def _keep_roll(self, roll: Roll, channels: Sequence[Channel], controller: Controller) -> None:
         """What was seen live stays in the list, to be looked at, laid over and saved."""
         from device.curves import curves
 
+        if not channels:
+            return
         told, derived = self._told(controller), self._body.choices.shown
 
         made: list[Capture] = []
@@ -206,7 +215,7 @@ class Scope(QObject):
         else:
             name = future.result()
         if made[0].count > 1:
-            self._body.add(made[0], f"Live {made[0].when[11:]}")
+            self._body.add(made[0], f"Live {made[0].when[11:]}", show=self.roll is None)
             if self.roll is None and self.job is None:
                 words = f"{made[0].count} values seen live; kept as {name}."
                 self._body.show_result(words, good=failure is None)

@@ -73,6 +73,11 @@ class Track:
     def last_time(self) -> float:
         return float(self._times[(self.count - 1) % self._most]) if self.count else float("nan")
 
+    @property
+    def lasts_s(self) -> float:
+        """From the oldest value to the newest."""
+        return self.last_time - float(self._times[self.first % self._most]) if self.count else 0.0
+
     def numbered(self, low: int, high: int) -> tuple[Values, Values]:
         """Values by their numbers, the last one not included."""
         low, high = max(low, self.first), min(high, self.count)

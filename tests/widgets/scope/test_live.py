@@ -13,11 +13,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
 
+from app.scope import WORTH_S
 from device.capture import Channel, Plan, Trigger
 from device.capture_file import load
 from device.curves import Derived
 from tests.long import record
-from tests.stage import Stage, make_studio
+from tests.stage import TICK_S, Stage, make_studio
 from tests.widgets.scope.hands import choose, click, enter, pick, scope
 from widgets.scope.bar import SPANS, View
 from widgets.scope.body import Body
@@ -187,3 +188,24 @@ def test_what_was_chosen_is_there_again_at_the_next_start(stage: Stage, tmp_path
 def replaced_start(plan: Plan) -> Plan:
     """The same with a start at once, which is what an unknown one becomes."""
     return dc.replace(plan, trigger=Trigger())
+
+
+def test_a_channel_that_is_taken_out_keeps_its_history(stage: Stage, tmp_path: Path) -> None:
+    body = scope(stage)
+    choose(body.choices.slots[1].what, "Position Y")
+    click(body.bar.live)
+    stage.rig.controller.ask("PR 1000,2000;BG")
+    stage.go(round(WORTH_S / TICK_S) + 30)
+    roll = stage.studio.at_machine.scope.roll
+    assert roll is not None
+    seen = roll.tracks["position.y"].numbered(0, 1 << 30)
+    choose(body.choices.slots[1].what, "Position error X")  # past many others: none of them is kept
+    stage.until(lambda: not stage.studio.tick.writing)
+    stage.go(10)
+    goes_on = stage.studio.at_machine.scope.roll
+    assert goes_on is not None and goes_on.tracks["position.x"].count > roll.tracks["position.y"].count
+    (path,) = (tmp_path / "captures").glob("*live*.npz")
+    kept = load(path)
+    assert kept.channels == (Channel("position", "Y"),) and kept.values[0, -1] == 2000
+    assert kept.count >= len(seen[1]) and np.array_equal(kept.values[0, : len(seen[1])], seen[1])
+    assert body.kept.list.item(0).text().endswith("\nPosition Y") and body.bar.live.isChecked()
