@@ -16,7 +16,7 @@ from tests.stage import Stage, make_studio
 from widgets.tuner.panel import AUTOMATIC, MANUAL, MODEL, TunerPanel
 
 PAGES = (MANUAL, AUTOMATIC, MODEL)
-WAYS = [(MANUAL, 2), (AUTOMATIC, 40), (MODEL, 24)]
+WAYS = [(MANUAL, 2), (MODEL, 24)]
 WAYS += [pytest.param(page, ticks, marks=pytest.mark.long) for page in PAGES for ticks in range(0, 60, 2)]
 TICKS_S = 1_024_000
 
