@@ -197,6 +197,7 @@ class Actions(QObject):
         self.rows = {row.name: row for row in ROWS if not row.program}
         self._program = program
         self._facts: Facts | None = None
+        self._reasons: dict[str, str] = {}  # of each action, as it was told last
         self.actions = {
             name: self._make(row, handlers[name]) for name, row in self.rows.items() if name not in SUBMENUS
         }
@@ -215,7 +216,9 @@ class Actions(QObject):
         self._facts = facts
         for name, action in self.actions.items():
             reason = self.reason(name, facts)
-            row = self.rows[name]
+            if reason == self._reasons.get(name):
+                continue
+            self._reasons[name], row = reason, self.rows[name]
             action.setEnabled(not reason)
             keys = QKeySequence(row.shortcut).toString(QKeySequence.SequenceFormat.NativeText)
             action.setToolTip(f"{row.help}{f' ({keys})' if keys else ''}" + (f"\n{reason}" if reason else ""))

@@ -133,6 +133,7 @@ class Studio(QObject):
         self.ear = Program(self.program, self.display, self.tick, self.desk.say)
         self.program.live = LiveValuesReader(self.connection, self.tick)
         self.stop_key = StopKey(application, self.connection.stop)
+        self.tick.around = self.stop_key.aside
         self.crash = CrashHook(data / "crashes", self.connection.stop, self)
         self._first: tuple[Panel, ...] = (self.display, self.messages, self.terminal, self.simulator, self.ear)
         self._fill_window()
@@ -230,7 +231,6 @@ class Studio(QObject):
             self.in_turn.look,
             self.search.look,
             self.start.echo.look,
-            self.stop_key.stay_first,
             self.rubbish.look,
         ):
             self.tick.each(look)

@@ -25,22 +25,31 @@ class Contained(QWidget):
     Qt lays out and paints the whole window, with all docks and diagrams, whenever any text in it changes its length.
     """
 
-    def __init__(self, content: QWidget) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._content: QWidget | None = None
+        self._told = QSize()
+
+    def hold(self, content: QWidget) -> None:
+        """What is in it from now on."""
         self._content = content
-        content.setParent(self)
+        if content.parentWidget() is not self:
+            content.setParent(self)
+        content.setGeometry(self.rect())
         self.setSizePolicy(content.sizePolicy())
-        self._told = self.minimumSizeHint()
+        self._tell()
 
     def sizeHint(self) -> QSize:
-        return self._content.sizeHint()
+        return self._content.sizeHint() if self._content is not None else super().sizeHint()
 
     def minimumSizeHint(self) -> QSize:
-        return self._content.minimumSizeHint().expandedTo(self._content.minimumSize())
+        content = self._content
+        return content.minimumSizeHint().expandedTo(content.minimumSize()) if content is not None else QSize()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        self._content.setGeometry(self.rect())
+        if self._content is not None:
+            self._content.setGeometry(self.rect())
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -61,6 +70,7 @@ class Dock(QDockWidget):
     """One panel. `moves` gives it the border of the kind and a STOP of its own while it floats."""
 
     stop = Signal()
+    brought = Signal()  # it has come in front; before anything is laid out
 
     def __init__(self, title: str, content: QWidget, moves: bool = False, parent: QWidget | None = None) -> None:
         super().__init__(title, parent)
@@ -69,7 +79,9 @@ class Dock(QDockWidget):
         self.content = content
         self.frame: KindFrame | None = None
         self.stop_button: StopButton | None = None
-        self.setWidget(Contained(self._framed(content) if moves else content))
+        around = Contained(self)  # from the outside inwards: what gets another parent is dressed anew, with all in it
+        self.setWidget(around)
+        around.hold(self._framed(content, around) if moves else content)
         self.topLevelChanged.connect(self._floats)
         self._no_title = QWidget()
 
@@ -83,11 +95,13 @@ class Dock(QDockWidget):
         """Shown, in front, with the focus in it."""
         self.show()
         self.raise_()
+        self.brought.emit()
         settle()
         self.content.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _framed(self, content: QWidget) -> QWidget:
-        self.frame, self.stop_button = KindFrame(), StopButton()
+    def _framed(self, content: QWidget, around: QWidget) -> QWidget:
+        self.frame = KindFrame(around)
+        self.stop_button = StopButton(self.frame)
         self.stop_button.stop.connect(self.stop)
         self.stop_button.hide()
         column = QVBoxLayout(self.frame)

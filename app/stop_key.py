@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from PySide6 import QtCore, QtGui, QtWidgets
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt
@@ -49,14 +50,26 @@ class StopKey(QObject):
         make_types()
         self._application = application
         self._stop = stop
-        self.stay_first()
+        self._wanted = True
+        application.installEventFilter(self)
 
-    def stay_first(self) -> None:
-        """Goes before filters installed since (a drag installs one that swallows every key); called with each tick."""
-        self._application.installEventFilter(self)
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """While something is done in which no key can come: what widgets tell each other meanwhile is not looked at.
+
+        That takes a quarter of the time of making widgets. Afterwards it is the first filter again: a drag, for
+        example, installs one that swallows every key.
+        """
+        self._application.removeEventFilter(self)
+        try:
+            yield
+        finally:
+            if self._wanted:
+                self._application.installEventFilter(self)
 
     def remove(self) -> None:
         """F12 does nothing any more."""
+        self._wanted = False
         self._application.removeEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
+from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Qt, QTimer
@@ -31,6 +32,7 @@ class Tick(QObject):
         self.unwritten = 0  # what could not be written
         self._controller: Controller | None = None
         self._watched = NOTHING
+        self.around: Callable[[], AbstractContextManager[None]] = nullcontext
         self._timer = QTimer(self)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.setInterval(PERIOD_MS)
@@ -73,27 +75,32 @@ class Tick(QObject):
 
     def once(self) -> None:
         """One tick; tests call it themselves."""
-        controller = self._controller
-        if controller is not None:
-            for notice in controller.notices():
-                for panel in self._panels:
-                    panel.notice(notice)
-            self._refresh(controller)
-        self._finish_futures()
-        for call in self._each:
-            call()
-        settle()
+        with self.around():
+            self._live()
+            self._finish_futures()
+            for call in self._each:
+                call()
+            settle()
 
-    def _refresh(self, controller: Controller) -> None:
+    def _live(self) -> None:
+        controller = self._controller
+        if controller is None:
+            return
+        for notice in controller.notices():
+            for panel in self._panels:
+                panel.notice(notice)
         shown = [panel for panel in self._panels if panel.in_sight]
         watched = frozenset(key for panel in shown for key in panel.watches())
         drawn = tuple(dict.fromkeys(key for panel in shown for key in panel.draws()))
         if (watched, drawn) != self._watched:
             self._watched = watched, drawn
             controller.watch(OWNER, sorted(watched), each_round=drawn)
+        growing = next((panel for panel in shown if not panel.making.done), None)
+        if growing is not None:
+            growing.grow()  # alone: its first look at the row comes with the next tick, and so do other panels' pieces
         row = controller.last()
         for panel in shown:
-            if panel.grown():
+            if panel is not growing and panel.making.done:
                 panel.refresh(row)
 
     def _finish_futures(self) -> None:

@@ -75,7 +75,8 @@ class Window(QMainWindow):
         return dock
 
     def _made(self, title: str, content: QWidget, area: Qt.DockWidgetArea, moves: bool) -> Dock:
-        dock = Dock(title, content, moves)
+        dock = Dock(title, content, moves, self)
+        dock.brought.connect(self.show_titles)
         dock.stop.connect(self.stop)
         self._areas.setdefault(area, []).append(dock)
         self.docks[title] = dock

@@ -30,14 +30,16 @@ class Panel(QWidget):
         self.controller: Controller | None = None
         self.loaded: Callable[[], bool] = lambda: True  # whether what its pieces need can be had without waiting
         self.making = Pieces(self.pieces())
+        self.making.done = type(self).pieces is Panel.pieces  # there are none
 
     def pieces(self) -> Iterator[object]:
         """What takes long to make; one piece with each tick, from the first look on."""
         return iter(())
 
-    def grown(self) -> bool:
-        """Whether everything is made; the next piece is made now."""
-        return self.making.done or (self.loaded() and self.making.step())
+    def grow(self) -> None:
+        """Makes the next piece, if it can be made without waiting."""
+        if self.loaded():
+            self.making.step()
 
     @property
     def in_sight(self) -> bool:
@@ -81,6 +83,12 @@ def set_text(label: QLabel, text: str) -> None:
     """Sets a label's text only when it differs, so that nothing is laid out again for nothing."""
     if label.text() != text:
         label.setText(text)
+
+
+def set_tip(widget: QWidget, tip: str) -> None:
+    """Sets a tooltip only when it differs: Qt tells everybody about each."""
+    if widget.toolTip() != tip:
+        widget.setToolTip(tip)
 
 
 def show_role(widget: QWidget, role: str) -> None:

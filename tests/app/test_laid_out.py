@@ -62,13 +62,13 @@ def test_the_status_bar_has_room_for_what_it_says_and_gives_way_in_a_small_windo
 
 
 def test_more_room_is_asked_for_when_it_is_needed(stage: Stage) -> None:
-    inside = QWidget()
-    inside.setMinimumSize(100, 50)
-    around = Contained(inside)
-    around.resize(300, 200)
     stage.studio.window.show()
     dock = stage.studio.window.docks["Display"]
+    inside, around = QWidget(), Contained(dock)
+    inside.setMinimumSize(100, 50)
     dock.setWidget(around)
+    around.hold(inside)
+    inside.show()
     settle()
     assert inside.size() == around.size()
     wide = dock.width()

@@ -11,6 +11,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QDialog, QFileDialog, QLineEdit, QMessageBox, QWidget
 
+from app.background import in_background
 from device.api import Kind, State, StopState
 from tests.rig import Rig
 from tests.stage import ASKS, Stage
@@ -234,6 +235,28 @@ def test_f12_stops_during_a_drag(stage: Stage, qapp: QApplication) -> None:
         assert stopped_once(stage)
     finally:
         qapp.removeEventFilter(greedy)
+
+
+def test_f12_stops_after_a_tick_that_failed(stage: Stage) -> None:
+    machine(stage)
+
+    def fail() -> None:
+        raise RuntimeError("in a tick")
+
+    stage.studio.tick.when_done(in_background(lambda: None), lambda _: fail())
+    with pytest.raises(RuntimeError):
+        stage.until(lambda: False)
+    press_f12(stage.studio.window)
+    assert stopped_once(stage)
+
+
+def test_f12_stays_away_after_the_end_even_where_that_comes_in_a_tick(stage: Stage) -> None:
+    machine(stage)
+    with stage.studio.stop_key.aside():
+        stage.studio.stop_key.remove()
+    press_f12(stage.studio.window)
+    stage.go(3)
+    assert stage.rig.stops == []
 
 
 def test_f12_stops_while_a_name_is_edited_in_place(stage: Stage) -> None:

@@ -21,7 +21,7 @@ from widgets.display.readings import axis_shown, drive_of, fresh, rate_words, sw
 from widgets.display.stops import StopList, said_of
 from widgets.display.switches import SwitchTable
 from widgets.display.threads import ThreadList
-from widgets.panel import Panel, set_text
+from widgets.panel import Panel, set_text, set_tip
 from widgets.parts.units import scale_of
 
 if TYPE_CHECKING:
@@ -118,8 +118,7 @@ class DisplayPanel(Panel):
             yield from self._analog
 
     def refresh(self, row: Row) -> None:
-        self._fit()
-        if self.controller is None or self._setup is None or self.controller.kind is Kind.OFFLINE:
+        if self.controller is None or self._setup is None or self.controller.kind is Kind.OFFLINE or not self._fits():
             return
         now = self._clock()
         for letter, readout in self.axes.items():
@@ -177,8 +176,9 @@ class DisplayPanel(Panel):
         controller = self.controller
         assert controller is not None
         self.io_control.setEnabled(controller.control)
-        self.io_control.setToolTip(
-            "Outputs switch when clicked." if controller.control else "This is Watch: switch to Control first."
+        set_tip(
+            self.io_control,
+            "Outputs switch when clicked." if controller.control else "This is Watch: switch to Control first.",
         )
         if self.io_control.isChecked() != controller.io_control:
             self.io_control.setChecked(controller.io_control)
@@ -192,11 +192,10 @@ class DisplayPanel(Panel):
         self._ways.setVisible(not linked)
         self._body.setVisible(linked)
 
-    def _fit(self) -> None:
-        """Axes, lamps and threads as model and setup have them; what is not there yet is made one group with a tick."""
+    def _fits(self) -> bool:
+        """Whether axes, lamps and threads are as model and setup have them; if not, one group is made now."""
         controller, setup = self.controller, self._setup
-        if controller is None or controller.kind is Kind.OFFLINE or setup is None:
-            return
+        assert controller is not None and setup is not None
         model = controller.model
         self._threads = model.threads if model is not None else 1
         inputs, outputs = (model.inputs, model.outputs) if model is not None else (8, 8)
@@ -210,7 +209,8 @@ class DisplayPanel(Panel):
         for there, wanted, show in groups:
             if there != wanted:
                 show(wanted)
-                break
+                return False
+        return True
 
     def _show_voltages(self, count: int) -> None:
         self._analog = tuple(f"analog{number}" for number in range(1, count + 1))

@@ -94,6 +94,8 @@ class KindFrame(QFrame):
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
+        if self.contentsRect().contains(event.rect()):
+            return  # only what is inside has changed
         painter = QPainter(self)
         paint_border(painter, QRectF(self.rect()).adjusted(1, 7, -1, -1), self._kind)
         font = look().small_font()

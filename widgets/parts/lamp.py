@@ -6,6 +6,7 @@ from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
+from widgets.panel import set_tip
 from widgets.parts.look import look
 
 
@@ -53,7 +54,7 @@ class Lamp(QAbstractButton):
 
     def show_switchable(self, switchable: bool, why_not: str = "") -> None:
         """Whether a click asks for the other level; otherwise the reason it does not."""
-        self.setToolTip("Click to switch." if switchable else why_not)
+        set_tip(self, "Click to switch." if switchable else why_not)
         if switchable != self._switchable:
             self._switchable = switchable
             self._fit_focus()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QLocale, Qt, Signal
@@ -21,6 +23,7 @@ from PySide6.QtWidgets import (
 
 from device.api import Kind
 from widgets.panel import Panel, set_text
+from widgets.parts.pieces import Pieces, dressed
 from widgets.parts.spin import indented
 
 if TYPE_CHECKING:
@@ -43,7 +46,7 @@ class SimulatorPanel(Panel):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._setup: Setup | None = None
-        self._built: tuple[object, ...] = ()
+        self._built: tuple[object, ...] | None = None  # for the simulator that is connected
         self.inputs: dict[int, QCheckBox] = {}
         self.switches: dict[str, QCheckBox] = {}
         self.volts: dict[int, QDoubleSpinBox] = {}
@@ -62,54 +65,60 @@ class SimulatorPanel(Panel):
         column.addWidget(self.empty)
         column.addWidget(self._area, 1)
         column.addStretch(0)
-        self._build()
+        self._show()
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
-        self._built = ()
-        self._build()
+        self._built = None
+        self._show()
 
     def show_document(self, old: Document | None, new: Document) -> None:
         if old is None or old.setup is not new.setup:
             self._setup = new.setup
-            self._build()
 
     def refresh(self, row: object) -> None:
-        self._build()
+        """Controls are made, piece by piece, when axes, inputs or their names are others than those there are."""
+        self._show()
+        wanted = self._wanted()
+        if wanted is not None and wanted != self._built:
+            self.making = Pieces(self._controls(*wanted))
 
-    def _build(self) -> None:
-        """Controls for the axes and inputs there are; built again only when those change."""
+    def _wanted(self) -> tuple[int, int, str, tuple[str, ...]] | None:
+        """Inputs, analog inputs, axes, names; nothing before it is known what there is to flip."""
         controller = self.controller
-        simulated = controller is not None and controller.kind is Kind.SIMULATOR
-        there = simulated and controller.model is not None  # not before it is known what there is to flip
+        if controller is None or controller.kind is not Kind.SIMULATOR or controller.model is None:
+            return None
+        names = self._setup.input_names if self._setup is not None else ()
+        return controller.model.inputs, controller.model.analog_inputs, controller.axes or "X", tuple(names)
+
+    def _show(self) -> None:
+        """What was made for this simulator stays until the next is ready."""
+        there = self._built is not None and self._wanted() is not None
+        simulated = self.controller is not None and self.controller.kind is Kind.SIMULATOR
         set_text(self.empty, STARTING if simulated else EMPTY)
         self.empty.setVisible(not there)
         self._area.setVisible(there)
-        model = controller.model if controller is not None else None
-        if not there or controller is None or model is None:
-            return
-        inputs, analog = model.inputs, model.analog_inputs
-        letters = controller.axes or "X"
-        names = self._setup.input_names if self._setup is not None else ()
-        wanted = (inputs, analog, letters, tuple(names))
-        if wanted == self._built or not self.in_sight:  # made when it is shown: connecting must not wait for it
-            return
-        self._built = wanted
-        inside = QWidget()
+
+    def _controls(self, inputs: int, analog: int, letters: str, names: tuple[str, ...]) -> Iterator[None]:
+        inside = QWidget(self)
         column = QVBoxLayout(inside)
         column.setContentsMargins(0, 0, 8, 0)
         column.setSpacing(8)
-        self._heading(column, "Inputs (ticked: high, as with nothing connected)")
-        column.addLayout(self._input_grid(inputs, names))
-        self._heading(column, "Switches (ticked: pressed)")
-        column.addLayout(self._switch_grid(letters))
-        self._heading(column, "Analog inputs")
-        column.addLayout(self._analog_grid(analog))
-        self._heading(column, "Push the load")
-        column.addLayout(self._push_grid(letters))
+        for heading, grid in (
+            ("Inputs (ticked: high, as with nothing connected)", partial(self._input_grid, inputs, names)),
+            ("Switches (ticked: pressed)", partial(self._switch_grid, letters)),
+            ("Analog inputs", partial(self._analog_grid, analog)),
+            ("Push the load", partial(self._push_grid, letters)),
+        ):
+            self._heading(column, heading)
+            column.addLayout(grid())
+            yield
         column.addLayout(self._system_row())
         column.addStretch(1)
+        yield from dressed(inside)
         self._area.setWidget(inside)
+        self._built = inputs, analog, letters, names
+        self._show()
 
     def _heading(self, column: QVBoxLayout, text: str) -> None:
         label = QLabel(text)

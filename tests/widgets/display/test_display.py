@@ -244,7 +244,7 @@ def test_no_number_is_cut_off_at_the_right(qtbot: QtBot) -> None:
     rig.values(tuple(f"{name}.{axis}" for name in ("position", "commanded", "error", "switches") for axis in "xyzw"))
     panel.resize(200, 600)
     panel.show()
-    for _ in range(5):
+    for _ in range(6):  # five groups are made, one with each look, then all has its value
         panel.refresh(rig.controller.last())
     qtbot.wait(50)
     panel.resize(panel.minimumSizeHint().width(), 600)  # as a dock does

@@ -33,6 +33,8 @@ def panel(qtbot: QtBot, rig: Rig) -> SimulatorPanel:
     panel.show()
     panel.show_document(None, Document())
     panel.attach(rig.controller)
+    panel.refresh(rig.controller.last())
+    panel.making.finish()
     panel.signals = []  # type: ignore[attr-defined]
     panel.stimulus.connect(lambda signal, value: panel.signals.append((signal, value)))  # type: ignore[attr-defined]
     panel.stimulus.connect(rig.simulation.stimulus)
