@@ -140,12 +140,10 @@ class PlanePanel(Panel):
 
     def pieces(self) -> Iterator[None]:
         """The picture, as what draws it takes a while to load and to make."""
-        from widgets.parts.plot import Plot, inside
+        from widgets.parts.plot import Plot
 
         yield
-        item = inside()
-        yield
-        plot = Plot("Path of two axes from above", equal=True, parent=self, item=item)
+        plot = Plot("Path of two axes from above", equal=True, parent=self)
         yield
         self._drawn = {
             "limits": plot.plot(), "commanded": plot.plot(), "actual": plot.plot(),

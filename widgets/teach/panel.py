@@ -18,6 +18,7 @@ from device.jog import deflection
 from widgets.display.display import Column
 from widgets.display.readings import unit_of
 from widgets.panel import Panel, set_text, show_role
+from widgets.parts.pieces import in_breaths
 from widgets.parts.units import shown
 
 if TYPE_CHECKING:
@@ -272,14 +273,16 @@ class TeachPanel(Panel):
         """Everything but its words, as the picture takes a while to load and to make."""
         from widgets.teach.parts import Parts
 
-        parts = Parts(self)
+        parts = Parts(self, self._inside)
+        yield from in_breaths(parts.pieces())
         yield
-        yield from parts.make_plot()
         self.parts = parts
-        self._column.insertWidget(2, parts, 1)
-        self.made.emit()
         self._show()
+        self.made.emit()
+        yield
         self._show_usable()
+        self._column.insertWidget(2, parts, 1)
+        parts.show()
 
     def _show(self) -> None:
         if self.parts is not None and self.setup is not None:
@@ -294,7 +297,7 @@ class TeachPanel(Panel):
             self.parts.show_usable(reason, controller is not None and controller.io_control)
 
     def _lay_out(self) -> None:
-        inside = QWidget()
+        inside = self._inside = QWidget()
         self._area = Column(inside)
         self._area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         outer = QVBoxLayout(self)

@@ -27,6 +27,7 @@ from codegen.teach_steps import drawn
 from widgets.jog.one_axis import enable
 from widgets.panel import set_text, show_role
 from widgets.parts.look import look
+from widgets.parts.pieces import dressed
 from widgets.parts.stick import Stick
 from widgets.parts.wrapping import WrappingRow
 from widgets.teach.entries import Entry, OutputEntry, WaitEntry
@@ -61,29 +62,46 @@ FILES = (
 class Parts(QWidget):
     """Knows the panel it stands in, and emits its signals."""
 
-    def __init__(self, panel: TeachPanel) -> None:
-        super().__init__()
+    def __init__(self, panel: TeachPanel, parent: QWidget) -> None:
+        """In its place from the start, unseen until it is filled."""
+        super().__init__(parent)
+        self.hide()
         self._panel = panel
         self._usable, self._playing = "", False
-        self.source, self.enable = QComboBox(), QPushButton("Enable")
-        self.stick, self.place = Stick(), QLabel()
-        self.block, self.fold = QWidget(), QToolButton()
-        self.of_stick, self.of_rows = Numbers(OF_THE_STICK), Numbers(OF_THE_ROWS, 2)
-        self.record, self.done = QPushButton("Record"), QPushButton("Done")
-        self.wait, self.output = QPushButton("Wait…"), QPushButton("Output…")
-        self.way, self.io_control = QCheckBox("Record the whole way"), QCheckBox("I/O control")
-        self.model = TeachModel(self)
-        self.view = TeachView(self.model)
-        self.message = QLabel()
-        self.edits = {name: _button(words, about) for name, words, about in EDITS}
-        self.files = {name: _button(words, about) for name, words, about in FILES}
-        self.how, self.play = QComboBox(), QPushButton("Play back…")
-        self.next, self.halt = QPushButton("Next row"), QPushButton("Stop")
+        self.source, self.enable, self.fold = QComboBox(self), QPushButton("Enable", self), QToolButton(self)
+        self.block, self.place, self.message = QWidget(self), QLabel(self), QLabel(self)
+        self.stick = Stick(self.block)
         self.plot: Plot | None = None
         self._line = self._dots = self._now = None
-        self._lay_out()
+
+    def pieces(self) -> Iterator[None]:
+        """What is in it, in the order in which Tab goes; the picture at last."""
+        yield
+        self.of_stick = Numbers(OF_THE_STICK, parent=self.block)
+        yield
+        self.of_rows = Numbers(OF_THE_ROWS, 2, parent=self.block)
+        yield
+        self.record, self.wait = QPushButton("Record", self), QPushButton("Wait…", self)
+        self.output, self.done = QPushButton("Output…", self), QPushButton("Done", self)
+        self.way, self.io_control = QCheckBox("Record the whole way", self), QCheckBox("I/O control", self)
+        self.how, self.play = QComboBox(self), QPushButton("Play back…", self)
+        self.next, self.halt = QPushButton("Next row", self), QPushButton("Stop", self)
+        yield
+        self.model = TeachModel(self)
+        self.view = TeachView(self.model, self)
+        yield
+        self.edits = {name: _button(words, about, self) for name, words, about in EDITS}
+        self.files = {name: _button(words, about, self) for name, words, about in FILES}
+        yield
+        self._lay_out_top()
+        yield
+        self._lay_out_table()
+        yield
         self._connect()
         self._enable_next(False)
+        yield
+        self._make_plot()
+        yield from dressed(self)
 
     # ---- what it shows
 
@@ -171,15 +189,10 @@ class Parts(QWidget):
         here = [(float(each.x), float(each.y)) for each in rows[: row + 1] if each.moves][-1:] if row >= 0 else []
         self._now.setData([x for x, _ in here], [y for _, y in here], symbolBrush=look().colour("accent"), pen=None)
 
-    def make_plot(self) -> Iterator[None]:
-        """It takes as long as everything else here, so it comes in pieces."""
-        from widgets.parts.plot import inside
+    def _make_plot(self) -> None:
         from widgets.teach.picture import PathPicture
 
-        yield
-        item = inside()
-        yield
-        self.plot = PathPicture("Path of the teach table", equal=True, parent=self, item=item)
+        self.plot = PathPicture("Path of the teach table", equal=True, parent=self)
         self.plot.setMinimumHeight(LOWEST_PICTURE)
         self._line, self._dots = self.plot.plot(), self.plot.plot(symbol="o", symbolSize=6, symbolPen=None)
         self._now = self.plot.plot(symbol="o", symbolSize=12, symbolPen=None)
@@ -245,7 +258,8 @@ class Parts(QWidget):
         self.next.clicked.connect(panel.next_wanted)
         self.halt.clicked.connect(panel.halt_wanted)
 
-    def _lay_out(self) -> None:
+    def _lay_out_top(self) -> None:
+        """What drives."""
         from widgets.teach.panel import SOURCES
 
         self._column = QVBoxLayout(self)
@@ -286,6 +300,9 @@ class Parts(QWidget):
         middle.addWidget(self.of_rows, 1, 0, 1, 2)
         middle.setColumnStretch(1, 1)
         self._column.addWidget(self.block)
+
+    def _lay_out_table(self) -> None:
+        """What records, the table, what plays it back."""
         self.place.setProperty("role", "quiet")
         self._column.addWidget(self.place)
         for button in (self.record, self.wait, self.output, self.done):
@@ -309,8 +326,8 @@ class Parts(QWidget):
         self._column.addLayout(_row(*self.files.values()))
 
 
-def _button(words: str, about: str) -> QPushButton:
-    button = QPushButton(words)
+def _button(words: str, about: str, parent: QWidget) -> QPushButton:
+    button = QPushButton(words, parent)
     button.setProperty("role", "segment")
     button.setProperty("hint", about)
     button.setToolTip(about)
