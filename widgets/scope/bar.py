@@ -73,6 +73,7 @@ class Bar(QWidget):
         self._connect()
         self.show_result("")
         self.show_live(False)
+        self.show_view(self.view, False)
 
     # ------------------------------------------------------------------- chosen
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
@@ -20,7 +20,7 @@ from widgets.scope.bar import Bar, View
 from widgets.scope.chart import Chart
 from widgets.scope.choices import Choices
 from widgets.scope.kept import Kept
-from widgets.scope.readings import Readings, seconds
+from widgets.scope.readings import Readings, apart_words
 from widgets.scope.views import Picture, Views
 
 if TYPE_CHECKING:
@@ -47,6 +47,7 @@ class Body(QWidget):
 
     def __init__(self, parent: QWidget | None = None, at_once: bool = True) -> None:
         super().__init__(parent)
+        self._model: Model | None = None
         self._setup: Setup | None = None
         self._partial: Capture | None = None
         self._due = self._to_measure = False  # a part that has come is not drawn yet; is drawn, but not measured yet
@@ -74,12 +75,16 @@ class Body(QWidget):
         self.choices.setUpdatesEnabled(False)  # until all of it is there
         self.choices_side.setWidget(self.choices)
         yield from self.choices.making.each()
+        yield
+        if self._model is not None:
+            self.choices.show_machine(self._model, self._setup)
         self.choices.setUpdatesEnabled(True)
         yield
         self.chart = Chart(self)
+        self.chart.hide()
         self._middle.insertWidget(0, self.chart, 1)
-        yield
         self.readings = Readings(self)
+        self.readings.show_columns([], None, (0.0, 1.0))
         self._beside.addWidget(self.readings, 1)
         yield
         self.kept = Kept(self.side)
@@ -95,8 +100,9 @@ class Body(QWidget):
     # -------------------------------------------------------------------- told
 
     def show_machine(self, model: Model, setup: Setup) -> None:
-        self._setup = setup
-        self.choices.show_machine(model, setup)
+        self._model, self._setup = model, setup
+        if self.making.done:
+            self.choices.show_machine(model, setup)
 
     def refresh(self, controller: Controller) -> None:
         """Whether a capture can begin now, and why not."""
@@ -253,18 +259,7 @@ class Body(QWidget):
             low, high = -math.inf, math.inf
         self.readings.show_columns(self.picture.columns(low, high), cursors, (low, high))
         held = HELD if self._roll is not None and not self._following and view is View.TIME else ""
-        set_text(self.between, "\n".join(filter(None, (self._words(cursors, view is View.SPECTRUM), held))))
-
-    @staticmethod
-    def _words(cursors: Sequence[float] | None, spectral: bool) -> str:
-        if cursors is None:
-            return ""
-        first, second = cursors
-        if spectral:
-            return f"A {first:.5g} Hz   B {second:.5g} Hz   B − A {second - first:.5g} Hz"
-        apart = second - first
-        turns = f"   1/(B − A) {1 / abs(apart):.5g} Hz" if apart else ""
-        return f"A {seconds(first)}   B {seconds(second)}   B − A {seconds(apart)}{turns}"
+        set_text(self.between, "\n".join(filter(None, (apart_words(cursors, view is View.SPECTRUM), held))))
 
     def _toggle_cursors(self, on: bool) -> None:
         """Cursors stand at moments: a live picture is held for them."""

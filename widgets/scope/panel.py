@@ -37,22 +37,22 @@ class ScopePanel(Panel):
 
         body = Body(self, at_once=False)
         self._column.addWidget(body)
+        self._tell(body)
         yield from body.making.each()
         self.body = body
-        self._tell()
-        yield
+        self._tell(body)
         self.setFocusProxy(body.start)
         self.opened.emit()
         yield
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
-        self._tell()
+        self._tell(self.body)
 
     def show_document(self, old: Document | None, new: Document) -> None:
         self._document = new
         if old is None or old.setup is not new.setup:
-            self._tell()
+            self._tell(self.body)
 
     def watches(self) -> tuple[str, ...]:
         """The sample time: how often a value is taken depends on it."""
@@ -60,14 +60,14 @@ class ScopePanel(Panel):
 
     def refresh(self, row: Row) -> None:
         if self.body is not None and self.controller is not None:
-            self._tell()
+            self._tell(self.body)
             self.body.choices.show_period(row.value("period"))
             self.body.refresh(self.controller)
 
-    def _tell(self) -> None:
+    def _tell(self, body: Body | None) -> None:
         """Whose channels there are: the controller's, or while none is known those of the setup."""
-        if self.body is None or self._document is None:
+        if body is None or self._document is None:
             return
         setup = self._document.setup
         model = self.controller.model if self.controller is not None else None
-        self.body.show_machine(model or setup.limits, setup)
+        body.show_machine(model or setup.limits, setup)

@@ -145,6 +145,18 @@ class Readings(QTableWidget):
             item.setText(text)
 
 
+def apart_words(cursors: Sequence[float] | None, spectral: bool) -> str:
+    """Where the cursors stand and what lies between them; nothing without them."""
+    if cursors is None:
+        return ""
+    first, second = cursors
+    if spectral:
+        return f"A {first:.5g} Hz   B {second:.5g} Hz   B − A {second - first:.5g} Hz"
+    apart = second - first
+    turns = f"   1/(B − A) {1 / abs(apart):.5g} Hz" if apart else ""
+    return f"A {seconds(first)}   B {seconds(second)}   B − A {seconds(apart)}{turns}"
+
+
 def _texts(column: Column, cursors: Sequence[float] | None, found: Measured) -> tuple[str, ...]:
     unit = column.unit
     first, second = (at(column.x, column.y, place) for place in cursors) if cursors is not None else (math.nan,) * 2

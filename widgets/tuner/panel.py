@@ -128,6 +128,9 @@ class TunerPanel(Panel):
         self._fit()
         if self._made:
             self._show_usable()
+            if not self._side.updatesEnabled():
+                self._side.setUpdatesEnabled(True)
+                self.results.appear()
 
     def show_present(self, gains: Gains | None, dual: bool = False) -> None:
         """What the controller holds of the axis."""
@@ -177,7 +180,8 @@ class TunerPanel(Panel):
         if not self._made:
             if self.loaded():
                 next(self._making, None)
-            return
+            if not self._made:
+                return
         letters = controller.axes or setup.letters
         if (setup, letters) != self._fitted:
             self._fitted = (setup, letters)
@@ -254,14 +258,12 @@ class TunerPanel(Panel):
             page.hide()
             self._pages.addWidget(page)
         self._turn()
-        self._side.setUpdatesEnabled(True)
         yield
         yield from self.results.pieces()
         self._connect()
         yield
         self._made = True
         self.open_page(MANUAL)
-        self.results.appear()
 
     def _connect(self) -> None:
         from device.tuning.loop import FACTORY
