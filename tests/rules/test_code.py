@@ -143,3 +143,27 @@ def test_nothing_sleeps_in_the_language() -> None:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "sleep"
     ]
     assert not wrong, "\n".join(wrong)
+
+
+NESTED = ("exec", "exec_", "processEvents", "getOpenFileName", "getSaveFileName", "getExistingDirectory", "getText")
+
+
+def nested_loops(tree: ast.Module) -> list[int]:
+    """Lines that run another event loop, or some events, within the present one."""
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    named = [(node.lineno, node.func.attr) for node in calls if isinstance(node.func, ast.Attribute)]
+    loops = [node.lineno for node in ast.walk(tree) if isinstance(node, ast.Name) and node.id == "QEventLoop"]
+    return sorted({line for line, name in named if name in NESTED} | set(loops))
+
+
+def test_nothing_runs_a_loop_within_the_loop() -> None:
+    """Ticks put F12's filter aside while they run: within one no key may come (app/stop_key.py, safety.md 1)."""
+    wrong = [
+        f"{relative(path)}:{line}" for path in python_files("app", "widgets") for line in nested_loops(syntax(path))
+    ]
+    assert [place.split(":")[0] for place in wrong] == ["app/studio.py"], "\n".join(wrong)  # the program's own loop
+
+
+def test_a_nested_loop_is_seen() -> None:
+    text = "menu.exec(place)\nQApplication.processEvents()\nloop = QEventLoop()\nexecute()\n"
+    assert nested_loops(ast.parse(text)) == [1, 2, 3]
