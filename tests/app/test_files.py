@@ -106,6 +106,7 @@ def test_compare_shows_both(stage: Stage) -> None:
     window = stage.studio.files.comparison
     assert window is not None
     assert "differ from the open program" in window.words.text()
+    window.tabs.setCurrentWidget(window.differences)
     assert "AI 1" in window.differences.toPlainText()
     assert "only in the file" in window.differences.toPlainText()
     window.close()

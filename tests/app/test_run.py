@@ -333,6 +333,7 @@ def test_upload_shows_the_code_and_where_it_differs(stage: Stage) -> None:
     assert window is not None
     assert "differ" in window.words.text()
     assert "PR 100" in window.code.toPlainText()
+    window.tabs.setCurrentWidget(window.differences)
     assert "only in the controller" in window.differences.toPlainText()
 
 
