@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from device.api import Controller, Kind
-from widgets.parts.pieces import Pieces
+from widgets.parts.pieces import Pieces, in_breaths
 
 if TYPE_CHECKING:
     from app.at_machine import AtMachine
@@ -37,7 +37,7 @@ class Late(QObject):
 
         self._parts = AtMachine(self._studio, self._ports)
         yield
-        yield from self._parts.pieces()
+        yield from in_breaths(self._parts.pieces())
         yield
         assert self.proof
 

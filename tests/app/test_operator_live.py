@@ -67,6 +67,7 @@ def test_the_manuals_example_at_a_port_of_its_own(hands: Mouse, machine: Simulat
     controller.execute(anyway=True)
     until(lambda: "start Y" in panel.words(), "the program's lines on the display")
     assert panel.words().split("\n") == ["press F1 to start X", "Press F2 to start Y"]
+    until(lambda: panel.making.done, "the keys")
     hands.press(panel.pads["Hand-held"].caps["F1"])
     until(lambda: machine.state()["axes"]["X"]["commanded"] == 1000, "X to have moved")
     assert machine.state()["axes"]["Y"]["commanded"] == 0

@@ -82,7 +82,7 @@ class Keypad(QWidget):
         self._control: list[Cap] = []
         for row, line in enumerate(keys):
             for column, key in enumerate(line):
-                cap = Cap(key)
+                cap = Cap(key, self)
                 grid.addWidget(cap, row, column)
                 self.caps.setdefault(cap.accessibleName(), cap)
                 if key.name in (SHIFT, CONTROL):

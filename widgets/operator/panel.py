@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
@@ -23,7 +22,8 @@ from device.api import ONLY_WATCHED, Kind
 from device.terminal1500 import HAND_HELD, PANEL, Key, Terminal
 from widgets.operator.keypad import Keypad
 from widgets.operator.screen import Screen
-from widgets.panel import Panel, set_text, show_role
+from widgets.panel import Panel, set_text, set_tip, show_role
+from widgets.parts.pieces import dressed
 
 if TYPE_CHECKING:
     from device.api import Controller, Row
@@ -59,11 +59,17 @@ class OperatorPanel(Panel):
         self._quiet.timeout.connect(self.heard.clear)
         self.state, self.note = QLabel(CLOSED), QLabel()
         self._open = False
-        self.pads: dict[str, Keypad] = {}  # made when first shown: the window opens sooner
+        self.pads: dict[str, Keypad] = {}  # made when first seen: the window opens sooner
         self._lay_out()
         self.connect_button.clicked.connect(self._connect)
         self.form.currentTextChanged.connect(self._show_form)
         self._show_usable()
+
+    def pieces(self) -> Iterator[None]:
+        pad = self._pad(self.form.currentText())
+        pad.hide()
+        yield from dressed(pad)
+        self._show_form(self.form.currentText())
 
     def attach(self, controller: Controller) -> None:
         super().attach(controller)
@@ -161,15 +167,15 @@ class OperatorPanel(Panel):
         elif self.line.currentText():
             self.connect_wanted.emit(self.line.currentText())
 
-    def showEvent(self, event: QShowEvent) -> None:
-        super().showEvent(event)
-        self._show_form(self.form.currentText())
-
-    def _show_form(self, name: str) -> None:
+    def _pad(self, name: str) -> Keypad:
         if name not in self.pads:
-            pad = self.pads[name] = Keypad(FORMS[name])
+            pad = self.pads[name] = Keypad(FORMS[name], self._column.parentWidget())
             pad.pressed.connect(self._pressed)
             self._column.insertWidget(self._column.count() - 1, pad)
+        return self.pads[name]
+
+    def _show_form(self, name: str) -> None:
+        self._pad(name)
         for form, pad in self.pads.items():
             pad.setVisible(form == name)
         self.terminal.keys = FORMS[name]
@@ -185,7 +191,7 @@ class OperatorPanel(Panel):
         usable = linked and bool(self.line.currentText() or self._open)
         if self.connect_button.isEnabled() != usable:
             self.connect_button.setEnabled(usable)
-        self.connect_button.setToolTip("" if linked else NOWHERE)
+        set_tip(self.connect_button, "" if linked else NOWHERE)
         if not self._open and not linked:
             set_text(self.note, NOWHERE)
         elif self._open and reason:
