@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -26,6 +27,7 @@ from codegen.setup_plate import plate_problem
 from device.api import Kind, StopState
 from widgets.parts.foot import foot
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces, dressed, in_breaths
 from widgets.parts.stop_button import StopButton
 from widgets.setup.comparing import Comparing
 from widgets.setup.pages.axes import AxesPage
@@ -71,6 +73,7 @@ class SetupWindow(QDialog):
         self.setup, self._before, self._has_content = setup, setup, has_content
         self.comparing, self._who, self._online = Comparing(), "", Online()
         self._made: dict[type[Page], Page] = {}
+        self._growing = Pieces(in_breaths(self._grow()))
         self.list, self.stack = QListWidget(), QStackedWidget()
         self.file, self.problem, self.stop = QLabel(), quiet("warning"), StopButton()
         self.stop.hide()  # until something is connected: what is sent may move it
@@ -95,7 +98,7 @@ class SetupWindow(QDialog):
         """A page; made when it is first wanted."""
         found = self._made.get(kind)
         if found is None:
-            found = self._made[kind] = kind()
+            found = self._made[kind] = kind(self.stack)
             self._place(found, KINDS.index(kind))
             found.edited.connect(self._edited)
             if isinstance(found, ComparePage):
@@ -106,10 +109,15 @@ class SetupWindow(QDialog):
         return found
 
     def grow(self) -> None:
-        """One page more, with each tick: made all at once the window would stand still, made later a click would."""
-        missing = next((kind for kind in KINDS if kind not in self._made), None)
-        if missing is not None:
-            self.page(missing)
+        """With each tick some of the pages: made all at once the window would stand still, made later a click would."""
+        self._growing.step()
+
+    def _grow(self) -> Iterator[None]:
+        for kind in KINDS:
+            page = self.page(kind)
+            yield
+            yield from page.filling(self._shown)
+            yield from dressed(page)
 
     @property
     def pages(self) -> tuple[Page, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from collections.abc import Iterator
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QLineEdit, QPushButton, QWidget
@@ -113,8 +114,8 @@ class AxesPage(Page):
     title = "Axes"
     help_page = "Setup: Axes"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.calculator: Calculator | None = None
         self.heading("Unit of each axis, and encoder counts (or steps) in one unit")
         self.rows = {letter: AxisRow(letter) for letter in "XYZW"}
@@ -133,6 +134,9 @@ class AxesPage(Page):
             "set up on the page Stepper."
         )
         self.column.addStretch(1)
+
+    def filling(self, shown: Shown) -> Iterator[None]:
+        return self.motors.showing(shown, shown.setup.letters)
 
     def refresh(self, shown: Shown) -> None:
         for letter, row in self.rows.items():

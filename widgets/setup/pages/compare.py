@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QHeaderView, QPushButton, QTableWidget, QTableWidgetItem
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QHeaderView, QPushButton, QTableWidget, QTableWidgetItem, QWidget
 
 from codegen.setup_differences import Difference, Key
 from widgets.parts.look import look
@@ -47,8 +47,8 @@ class ComparePage(Page):
     chosen = Signal(object, object)
     all_chosen = Signal(object)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.said = self.words("")
         self.table = QTableWidget(0, len(HEADS))
         self.table.setAccessibleName("Values that differ between setup and controller")

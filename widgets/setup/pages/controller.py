@@ -41,8 +41,8 @@ class ControllerPage(Page):
     title = "Controller"
     help_page = "Setup: Controller"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.name, self.plate, self.rate, self.serial = QLineEdit(), QLineEdit(), QLineEdit(), QLineEdit()
         self.model = QComboBox()
         self.use_plate, self.take_serial = QPushButton("Use it"), QPushButton("Take the connected one's")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
@@ -17,6 +17,7 @@ from widgets.form.cell import Cell
 from widgets.form.editors import FlagEditor, LineEditor, choice_list
 from widgets.form.offers import Offers
 from widgets.parts.look import look
+from widgets.parts.pieces import Pieces
 from widgets.setup.pages.page import Shown
 
 COLUMN = 148  # px of an axis
@@ -36,13 +37,21 @@ class AxisGrid(QWidget):
         self._whole = QGridLayout(self)
         self._whole.setContentsMargins(0, 0, 0, 0)
         self._shown: Shown | None = None
+        self._making: Pieces | None = None
 
     def show_axes(self, shown: Shown, letters: str) -> None:
         """Shows these axes; other axes build the grid anew."""
+        for _ in self.showing(shown, letters):
+            pass
+
+    def showing(self, shown: Shown, letters: str) -> Iterator[None]:
+        """The same in pieces; whoever cannot wait takes over what is there already."""
         self._shown = shown
-        if letters != self.letters or not self.cells:
+        if letters != self.letters or self._making is None:
             self.letters = letters
-            self._build(shown.setup)
+            self._making = Pieces(self._build(shown.setup))
+        while not self._making.step():
+            yield
         for (name, letter), cell in self.cells.items():
             held = getattr(shown.setup.axis(letter), name)
             if cell.editor.value() != held:
@@ -71,8 +80,8 @@ class AxisGrid(QWidget):
         registers = OF_FIELD.get(name, ())
         return not registers or any(each.counts_for(axis) for each in registers)
 
-    def _build(self, setup: Setup) -> None:
-        old, self._inside = self._inside, QWidget()
+    def _build(self, setup: Setup) -> Iterator[None]:
+        old, self._inside = self._inside, QWidget(self)
         self.cells.clear()
         grid = QGridLayout(self._inside)
         grid.setContentsMargins(0, 0, 0, 0)
@@ -91,6 +100,7 @@ class AxisGrid(QWidget):
             grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignTop)
             for column, letter in enumerate(self.letters, start=1):
                 grid.addWidget(self._cell(name, letter, field, setup), row, column, Qt.AlignmentFlag.AlignTop)
+                yield
         grid.setColumnStretch(len(self.letters) + 1, 1)
         self._whole.addWidget(self._inside)
         self._whole.removeWidget(old)
@@ -110,7 +120,7 @@ class AxisGrid(QWidget):
             editor.setFixedWidth(COLUMN - 48)
             if isinstance(editor, QLineEdit):
                 editor.setPlaceholderText(self._empty)
-        cell = Cell(editor, f"{field.label} {letter}", field.help, wide=False, speaks=True)
+        cell = Cell(editor, f"{field.label} {letter}", field.help, wide=False, speaks=True, parent=self._inside)
         cell.changed.connect(lambda value: self._changed(name, letter, value))
         self.cells[name, letter] = cell
         return cell

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from PySide6.QtWidgets import QWidget
+
 from codegen.setup_cautions import unprotected
 from widgets.setup.pages.grid import AxisGrid
 from widgets.setup.pages.page import Page, Shown, say
@@ -13,8 +17,8 @@ class LimitsPage(Page):
     title = "Limits"
     help_page = "Setup: Limits"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.grid = AxisGrid(
             (
                 "forward_limit",
@@ -35,6 +39,9 @@ class LimitsPage(Page):
             "inwards; off switches one off. What is not set stays as the controller has it."
         )
         self.column.addStretch(1)
+
+    def filling(self, shown: Shown) -> Iterator[None]:
+        return self.grid.showing(shown, shown.setup.letters)
 
     def refresh(self, shown: Shown) -> None:
         setup = shown.setup

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
+from PySide6.QtWidgets import QWidget
+
 from codegen.numbers import shown as number_shown
+from codegen.setup import Setup
 from codegen.setup_registers import GAIN
 from codegen.twoletter.fixed import ONE
 from widgets.setup.pages.grid import AxisGrid
@@ -17,8 +21,8 @@ class ServoPage(Page):
     title = "Servo"
     help_page = "Setup: Servo"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.none = self.words()
         self.grid = AxisGrid(
             ("main_encoder", "aux_encoder", "kp", "ki", "kd", "fv", "fa", "smoothing", "offset", "integrator_limit")
@@ -28,8 +32,11 @@ class ServoPage(Page):
         self.gain = self.words()
         self.column.addStretch(1)
 
+    def filling(self, shown: Shown) -> Iterator[None]:
+        return self.grid.showing(shown, _servos(shown.setup))
+
     def refresh(self, shown: Shown) -> None:
-        letters = "".join(each for each in shown.setup.letters if not shown.setup.axis(each).is_stepper)
+        letters = _servos(shown.setup)
         say(self.none, "" if letters else "No axis has a servo: choose the motor on the page Axes.")
         self.grid.setVisible(bool(letters))
         self.grid.show_axes(shown, letters)
@@ -51,8 +58,8 @@ class StepperPage(Page):
     title = "Stepper"
     help_page = "Setup: Stepper"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.none = self.words()
         self.grid = AxisGrid(("smoothing", "main_encoder"), "2")
         self.grid.edited.connect(self.change)
@@ -72,3 +79,7 @@ class StepperPage(Page):
             if letters
             else "",
         )
+
+
+def _servos(setup: Setup) -> str:
+    return "".join(each for each in setup.letters if not setup.axis(each).is_stepper)

@@ -53,8 +53,8 @@ class NamesPage(Page):
     title = "Inputs and outputs"
     help_page = "Setup: Inputs and outputs"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.heading("Inputs: names that programs, display and sentences use")
         self.inputs = NameGrid("Input", 8)
         self.column.addWidget(self.inputs)
@@ -85,8 +85,8 @@ class NotesPage(Page):
     title = "Notes"
     help_page = "Setup: Notes"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.heading("Anything worth knowing about this machine; it is kept in the setup file and in every program")
         self.text = QPlainTextEdit()
         self.text.setAccessibleName("Notes about the machine")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
@@ -30,8 +30,8 @@ class Page(QWidget):
     title = ""
     help_page = ""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.setProperty("helpPage", self.help_page)
         self.shown: Shown | None = None
         self.inside = QWidget()
@@ -59,6 +59,10 @@ class Page(QWidget):
         """Words that take several lines know their height only once the page has its width."""
         super().showEvent(event)
         settle(self.inside)
+
+    def filling(self, shown: Shown) -> Iterator[None]:
+        """What takes long to make of it, before somebody turns to it."""
+        return iter(())
 
     def refresh(self, shown: Shown) -> None:
         """Brings every editor and word up to date."""
