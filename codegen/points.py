@@ -55,11 +55,11 @@ def counts_of(point: Point, setup: Setup, letters: str) -> dict[str, int] | str:
     found = {}
     for place in point.places:
         if place.axis not in letters:
-            return f"“{point.name}” has a place of axis {place.axis}, which this controller does not have."
+            return f"“{point.name}” has a place of axis {place.axis}; the setup or the controller has no such axis."
         unit = setup.unit_text(Dimension.POSITION, place.axis)
         if unit != place.unit:
-            now = f"axis {place.axis} is set up in {unit} now"
-            return f"“{point.name}” was saved in {place.unit}, and {now}. Save it again."
+            now = f"axis {place.axis} is set up in “{unit}” now"
+            return f"“{point.name}” was saved in “{place.unit}”, and {now}. Save it again."
         number = parse_number(place.number)
         if number is None:
             return f"“{point.name}”: “{place.number}” is no number. Save it again."

@@ -29,8 +29,8 @@ def tuner_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     rig.type("SH")
     studio.actions["layout_tune"].trigger()
     studio.actions["tune"].trigger()
-    stage.go()
     panel, part = studio.at_machine.tuning.panel, studio.at_machine.tuning
+    _until(stage, lambda: panel.bode_plot is not None)
     for gains in (("6", "64"), ("12", "150")):
         for name, text in zip(("KP", "KD"), gains, strict=True):
             panel.manual.gains.fields[name].setText(text)

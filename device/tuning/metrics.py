@@ -112,8 +112,8 @@ def measured_words(metrics: Metrics, swings: bool) -> str:
         return "The axis vibrates with these gains: take less KP or KI, or more KD."
     if metrics.settling_time is None and metrics.rest_time is not None:
         return (
-            f"It rests {abs(metrics.steady_error):.3g} counts beside its end: weight or friction hold it there. "
-            "KI takes such an error away."
+            f"It rests {round(abs(metrics.steady_error), 1):g} counts beside its end: weight or friction hold it "
+            "there. KI takes such an error away."
         )
     if metrics.settling_time is None:
         return "The response did not settle within the record."
@@ -121,5 +121,5 @@ def measured_words(metrics: Metrics, swings: bool) -> str:
     saturated = f" The torque was at its limit for {torque} of it." if metrics.saturated > 0.01 else ""
     return (
         f"Settled within {metrics.settling_time * 1000:.0f} ms, overshoot {percent(metrics.overshoot)}, "
-        f"{metrics.steady_error:.3g} counts of error left.{saturated}"
+        f"{round(metrics.steady_error, 1) + 0.0:g} counts of error left.{saturated}"
     )

@@ -26,7 +26,7 @@ def test_a_number_is_never_read_in_another_unit() -> None:
     point = point_at("Load", {"X": 25_400}, TABLE)
     inches = dc.replace(TABLE, axes=(dc.replace(MM, unit=Unit.INCH),) * 4)
     problem = counts_of(point, inches, "XY")
-    assert isinstance(problem, str) and "saved in mm" in problem and "in now" in problem
+    assert isinstance(problem, str) and "saved in “mm”" in problem and "“in” now" in problem
     finer = dc.replace(TABLE, axes=(dc.replace(MM, counts_per_unit="2000"),) * 4)
     assert counts_of(point, finer, "XY") == {"X": 50_800}  # the same 25.4 mm
     missing = counts_of(point_at("Y", {"Y": 1}, TABLE), TABLE, "X")

@@ -32,15 +32,16 @@ from widgets.parts.units import decimals_of
 
 NOBODY = "Save where the axes are under a name; then you can go back there."
 CHOOSE = "Choose a point in the list."
+ELSEWHERE = 4  # decimals of a place that this setup cannot go to, at most
 
 
 def places_words(point: Point, setup: Setup) -> str:
-    """With the fixed decimals of each axis; as it was saved where its unit is another one now."""
+    """With the fixed decimals of each axis; shortened where its unit is another one now, or the axis not there."""
     told = []
     for each in point.places:
         same = each.axis in setup.letters and each.unit == setup.unit_text(Dimension.POSITION, each.axis)
-        places = decimals_of(setup.axis(each.axis)) if same else 0
-        told.append(f"{each.axis} {f'{float(each.number):.{places}f}' if same else each.number} {each.unit}")
+        number = f"{float(each.number):.{decimals_of(setup.axis(each.axis)) if same else ELSEWHERE}f}"
+        told.append(f"{each.axis} {number if same else number.rstrip('0').rstrip('.')} {each.unit}")
     return ", ".join(told)
 
 

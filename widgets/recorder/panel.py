@@ -142,7 +142,7 @@ class RecorderPanel(Panel):
     # ----------------------------------------------------------------- inside
 
     def _arrange(self, replay: bool) -> None:
-        for widget in (self.bar, self.search, self.table, self.leave):
+        for widget in (self.bar, self.where, self.search, self.table, self.leave):
             widget.setVisible(replay)
         self.replay.setVisible(not replay)
         self.save.setVisible(not replay)
@@ -189,6 +189,7 @@ class RecorderPanel(Panel):
         show_role(self.problem, "warning")
         column.addWidget(self.problem)
         column.addWidget(self._bar())
+        column.addWidget(self.where)
         self.search.setPlaceholderText("Search what happened")
         self.search.setAccessibleName("Search what happened")
         self.search.setClearButtonEnabled(True)
@@ -217,7 +218,7 @@ class RecorderPanel(Panel):
         self.speed.setAccessibleName("Speed of the replay")
         for speed in SPEEDS:
             self.speed.addItem(f"{speed:g} ×", speed)
-        for widget, stretch in ((self.play, 0), (self.slider, 1), (self.where, 0), (self.speed, 0)):
+        for widget, stretch in ((self.play, 0), (self.slider, 1), (self.speed, 0)):
             row.addWidget(widget, stretch)
         return self.bar
 

@@ -97,6 +97,7 @@ class StepPlot(QWidget):
     def _legend(self) -> None:
         legend = self.position.getPlotItem().legend
         legend.clear()
+        legend.setVisible(bool(self._curves))
         legend.setLabelTextColor(look().colour("text"))
         legend.setLabelTextSize(f"{look().fonts['small_points']:g}pt")
         ground = QColor(look().colour("surface"))

@@ -38,6 +38,8 @@ NONE_THERE = "The controller knows no variable and no array yet: execute a progr
 COLUMNS = ("Name", "Value", "As text", "In the recipe")
 ARRAY_COLUMNS = ("Element", "Value", "In the recipe")
 NAME, VALUE, LETTERS, RECIPE = range(4)
+PICTURE, ROWS = 72, 46  # px: an array and its elements in a low dock
+LEAST = 186  # px of both tables: the buttons above take a second line of it where the dock is narrow
 NAME_WIDTH = 136  # px
 REPEAT_TICKS = 30  # about a second
 
@@ -304,7 +306,7 @@ class ValuesPanel(Panel):
             from widgets.parts.plot import Plot
 
             self.plot = Plot("Array", parent=self)
-            self.plot.setMinimumHeight(120)
+            self.plot.setMinimumHeight(PICTURE)
             self._curve = self.plot.plot()
             self._right_column.insertWidget(1, self.plot, 1)
         self.plot.name_sides("element", name)
@@ -333,11 +335,13 @@ class ValuesPanel(Panel):
         self.table.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         column.addLayout(WrappingRow(self.read, self.keep, self.load, self.save, self.send, self.new, self.add))
         both = QHBoxLayout()
+        both.addStrut(LEAST)
         self._right = QWidget()
         self._right_column = QVBoxLayout(self._right)
         self._right_column.setContentsMargins(0, 0, 0, 0)
         self._right_column.addWidget(self.chosen)
         self._right_column.addWidget(self.elements, 1)
+        self.elements.setMinimumHeight(ROWS)
         for table, names, accessible in (
             (self.table, COLUMNS, "Variables and arrays"), (self.elements, ARRAY_COLUMNS, "Elements of the array"),
         ):  # fmt: skip
