@@ -81,9 +81,6 @@ def _large_ticks(axis: Any, low: float, high: float, size: float) -> list[float]
     return found
 
 
-inside = Inside
-
-
 class Plot(pyqtgraph.PlotWidget):  # type: ignore[misc]
     """A diagram that follows its data until the person looks elsewhere, and again once it is told to fit.
 

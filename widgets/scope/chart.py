@@ -171,7 +171,7 @@ class Chart(QWidget):
         self._step = step
         fresh = self.begin(lines, bottom, equal)
         self._empty = False
-        self._turns.change(self.strips.values())
+        (self._turns.bring if fresh else self._turns.change)(self.strips.values())
         few = sum(len(line.y) for line in lines) <= FEW_TOGETHER
         for group, strip in self.strips.items():
             mine = [line for line in lines if line.group == group]
@@ -220,6 +220,7 @@ class Chart(QWidget):
             last = number == len(groups) - 1
             strip.getAxis("bottom").setStyle(showValues=last)
             strip.getAxis("bottom").setHeight(None if last else 6)
+        self._turns.bring(self.strips.values())
         self._column.setEnabled(True)
 
     def _wipe(self, drawn: dict[str, list[Any]]) -> None:

@@ -18,6 +18,7 @@ from widgets.parts.look import look
 FIGURES = 5
 LONGEST_HEAD = 14  # characters in one line
 DASH = "–"
+NO_BREAK = "\N{NO-BREAK SPACE}"
 ROWS = (
     "At A", "At B", "B − A", "Least", "Most", "Mean", "RMS", "Peak to peak", "Rise 10–90 %", "Frequency",
     "Highest line",
@@ -150,11 +151,13 @@ def apart_words(cursors: Sequence[float] | None, spectral: bool) -> str:
     if cursors is None:
         return ""
     first, second = cursors
-    if spectral:
-        return f"A {first:.5g} Hz   B {second:.5g} Hz   B − A {second - first:.5g} Hz"
     apart = second - first
-    turns = f"   1/(B − A) {1 / abs(apart):.5g} Hz" if apart else ""
-    return f"A {seconds(first)}   B {seconds(second)}   B − A {seconds(apart)}{turns}"
+    if spectral:
+        parts = [f"A {first:.5g} Hz", f"B {second:.5g} Hz", f"B − A {apart:.5g} Hz"]
+    else:
+        parts = [f"A {seconds(first)}", f"B {seconds(second)}", f"B − A {seconds(apart)}"]
+        parts += [f"1/(B − A) {1 / abs(apart):.5g} Hz"] if apart else []
+    return "   ".join(part.replace(" ", NO_BREAK) for part in parts)
 
 
 def _texts(column: Column, cursors: Sequence[float] | None, found: Measured) -> tuple[str, ...]:

@@ -18,9 +18,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from device.api import Kind
+from device.api import Kind, State
 from widgets.display.readings import unit_of
 from widgets.panel import Panel, set_text, show_role
+from widgets.parts.pieces import Pieces
 from widgets.parts.units import scale_of
 from widgets.tuner.asked import Asked, Judged
 from widgets.tuner.results import Results
@@ -67,7 +68,7 @@ class TunerPanel(Panel):
         super().__init__(parent)
         self._setup: Setup | None = None
         self._fitted: tuple[object, str] | None = None
-        self._made, self._making = False, self._make()
+        self._begun = self._made = False
         self.judge: Callable[[Asked], Judged] = lambda asked: Judged("")
         self.running = ""  # what is under way, in words
         self.empty, self.result, self.results = QLabel(OFFLINE), QLabel(), Results()
@@ -177,13 +178,12 @@ class TunerPanel(Panel):
             self._area.setVisible(linked)
         if not linked or not self.isVisible() or setup is None or controller is None:
             return
+        if not self._begun:
+            self._begun, self.making = True, Pieces(self._make())
         if not self._made:
-            if self.loaded():
-                next(self._making, None)
-            if not self._made:
-                return
-        letters = controller.axes or setup.letters
-        if (setup, letters) != self._fitted:
+            return
+        letters = controller.axes or (setup.letters if controller.state is State.READY else "")
+        if letters and (setup, letters) != self._fitted:
             self._fitted = (setup, letters)
             self.axes.blockSignals(True)
             before = self.axis

@@ -85,7 +85,7 @@ def test_what_lies_between_the_cursors_is_measured(qapp: QApplication, body: Bod
     assert read("Rise 10–90 %", "Position X").split()[1] == "ms"
     assert [read(row, "Velocity X") for row in ("At A", "B − A", "RMS")] == ["1.536 mm/s", "0 mm/s", "1.536 mm/s"]
     assert read("Most", "Acceleration X") == "0 mm/s²" and read("Frequency", "Position X") == "–"
-    assert body.between.text() == "A 234.38 ms   B 78.125 ms   B − A -156.25 ms   1/(B − A) 6.4 Hz"
+    assert body.between.text().replace("\xa0", " ") == "A 234.38 ms   B 78.125 ms   B − A -156.25 ms   1/(B − A) 6.4 Hz"
     body.chart.show_cursors((0.0, 99 * dt))
     assert [read(row, "Velocity X") for row in ("At A", "At B")] == ["1.536 mm/s"] * 2  # ends of a straight line too
     body.chart.show_cursors((-dt, 99.5 * dt))
