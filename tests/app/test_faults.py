@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication
+from PySide6.QtWidgets import QAbstractButton, QApplication, QWidget
 
 from app.compose import Studio
 from app.connection import connector
@@ -29,6 +29,7 @@ from device.simulator.process import SimulatorProcess
 from device.transport import LineSettings
 from tests.app.hands import live, until
 from tests.long import is_long
+from widgets.panel import Panel
 
 pytestmark = [pytest.mark.paced, pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals")]
 LEFT = Qt.MouseButton.LeftButton
@@ -118,6 +119,11 @@ def lost(bench: Bench, words: Callable[[str], bool]) -> None:
     assert all(text == "\x12\x16" or only_reads(text.encode() + b"\r") for text in sent), sent
 
 
+def whole(content: QWidget) -> None:
+    """Panels come in pieces."""
+    until(lambda: not isinstance(content, Panel) or content.making.done, "all of the panel")
+
+
 SOME = ("Display", "Terminal", "Jog", "Variables", "X-Y view")  # in the everyday run
 DIALOGS = ("…", "Connect", "Replay", "Open", "Save")
 
@@ -132,6 +138,7 @@ def grey(bench: Bench) -> None:
             continue
         bench.walked.add(title)
         studio.desk.bring(title)
+        whole(dock.content)
         live(0.02)
         for button in dock.content.findChildren(QAbstractButton):
             name = button.text() or button.accessibleName()
@@ -140,11 +147,13 @@ def grey(bench: Bench) -> None:
             QTest.mouseClick(button, LEFT)
     jog = studio.at_machine.jog
     studio.desk.bring("Jog")
-    live(0.1)
-    assert jog.one is not None and not jog.one.hold_forward.isEnabled() and jog.reason
+    QTest.mouseClick(jog.buttons[0], LEFT)  # all of its pages were looked at
+    until(lambda: jog.one is not None and jog.pages.currentWidget() is jog.one, "the page of one axis")
+    assert jog.one is not None and not jog.one.hold_forward.isEnabled() and jog.reason  # from the first moment
     studio.desk.bring("X-Y view")
     until(lambda: "old" in studio.at_machine.plane.words(), "the X-Y view to tell the age")
     studio.desk.bring("Variables")
+    whole(studio.at_machine.values)
     live(0.1)
     assert not studio.at_machine.values.read.isEnabled()
     if studio.desk.question is not None:

@@ -136,7 +136,7 @@ class JogPanel(Panel):
         self._fit()
         if self.one is None or self.controller is None or self._setup is None:
             return
-        now, reason, motion = self._clock(), self.reason, self.controller.motion
+        now, reason = self._clock(), self.reason
         if reason:
             self.holder.let_go()
         key = f"position.{self.axis.lower()}"
@@ -146,18 +146,23 @@ class JogPanel(Panel):
         looked_at = getattr(page, "looked_at", None)
         self.preview = {} if reason or looked_at is None else ghost_of(looked_at(), places)
         self.one.show_marks(marks, float(self.ghost.get(self.axis, math.nan)))
-        self.one.show_usable(reason, motion.latch)
         for shows in (self.one, self.line, self.arc, self.saved):
             if shows is page and shows is not None:
                 shows.show_ends(places)
+        self._show_arrows()
+        self._later.step()
+
+    def _show_usable(self, controller: Controller) -> None:
+        """Nothing that may not be moved now can be clicked, not for a moment."""
+        reason, motion = self.reason, controller.motion
+        if self.one is not None:
+            self.one.show_usable(reason, motion.latch)
         for each in (self.line, self.arc, self.saved):
             if each is not None:
                 each.show_usable(reason)
         if self.drive is not None:
             self.drive.show_usable(reason, motion.alone)
         self.halt.setEnabled(bool(motion.busy))
-        self._show_arrows()
-        self._later.step()
 
     def show_ghost(self, ghost: Mapping[str, int]) -> None:
         """Where axes will stop, counts: held, on their way, or looked at. Comes with every tick, seen or not."""
@@ -321,6 +326,7 @@ class JogPanel(Panel):
             self.pages.setCurrentWidget(page)
             self.pages.updateGeometry()
         self._arrange(page)
+        self._show_usable(controller)
 
     def _arrange(self, page: QWidget) -> None:
         setup, linked = self._setup, self.controller is not None and self.controller.kind is not Kind.OFFLINE
