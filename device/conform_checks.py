@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from codegen.twoletter.commands import COMMANDS
@@ -188,16 +189,22 @@ def formats(session: Session) -> Seen:
             continue
         axis = "X" if row.takes in (Takes.AXES, Takes.AXES_OR_ONE) else ""
         line = f"{row.name}{axis}" if row.tells else f"{row.name} ?"
-        reply = session.talk.line(line)
-        found = re.fullmatch(r"([ -]?)(\d+)(?:\.(\d+))?", reply.text)
-        if not reply.accepted or found is None:
-            raise reply.odd()
-        yield f"commands.{row.name}.reply", f"{len(found.group(2))}.{len(found.group(3) or '')}"
+        sign, whole, decimals = session.talk.again(partial(_shape, session.talk, line))
+        yield f"commands.{row.name}.reply", f"{len(whole)}.{len(decimals)}"
         if row.name in ("TI", "TB", "TC", "SC", "TS"):
-            signs.add(bool(found.group(1)))
+            signs.add(bool(sign))
     if len(signs) != 1:
         raise Odd("some of TI TB TC SC TS have a sign column, some have none")
     yield "status_sign", signs.pop()
+
+
+def _shape(talk: Talk, line: str) -> tuple[str, str, str]:
+    """Sign column, digits and decimals of an answer."""
+    reply = talk.line(line)
+    found = re.fullmatch(r"([ -]?)(\d+)(?:\.(\d+))?", reply.text)
+    if not reply.accepted or found is None:
+        raise reply.odd()
+    return found.group(1), found.group(2), found.group(3) or ""
 
 
 def ranges(session: Session) -> Seen:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from functools import partial
+from typing import Final, TypeAlias, TypeVar
 
 from device.simulator.twoletter.setting import Value
 from device.transport import Transport
@@ -14,7 +15,9 @@ QUIET_S: Final = 0.06  # after a prompt; adapters keep characters up to 16 ms
 SILENCE_S: Final = 0.4  # after anything else
 FIRST_S: Final = 1.0  # until the first character
 MOST_S: Final = 60.0  # for one answer: a thousand lines at 19 200 baud take 43 s
+LOOKS: Final = 5  # at what a busy computer may have handed over too late
 LINE: Final = 60  # characters of a line that every controller takes
+T = TypeVar("T")
 PROMPTS: Final = (b":", b"?")
 NOBODY: Final = "ZZQXW"  # a name that no program uses
 Seen: TypeAlias = Iterator[tuple[str, Value]]
@@ -71,7 +74,8 @@ class Talk:
                 self._transport.read(0.01)
 
     def say(self, data: bytes, line: str = "") -> Reply:
-        """Sends, and takes what comes until it is quiet."""
+        """Sends, and takes what comes until it is quiet; what was there before answers something else."""
+        self._transport.read(0.0)
         self.send(data)
         came, waited = bytearray(), 0.0
         while waited < MOST_S:
@@ -115,8 +119,25 @@ class Talk:
         """A line that must be accepted and answers nothing."""
         self.ask(text)
 
+    def settle(self) -> None:
+        """Waits until nothing more comes."""
+        while self.listen(SILENCE_S):
+            continue
+
+    def again(self, ask: Callable[[], T]) -> T:
+        """Asks what changes nothing, and again where the answer was odd."""
+        for _ in range(LOOKS - 1):
+            try:
+                return ask()
+            except Odd:
+                self.settle()
+        return ask()
+
     def number(self, expression: str, digits: str = "F10.4") -> float:
         """The value of an expression, in a format of our own (dmc-1412-1414.txt l.3676)."""
+        return self.again(lambda: self._number(expression, digits))
+
+    def _number(self, expression: str, digits: str) -> float:
         reply = self.line(f"MG {expression}{{{digits}}}")
         found = NUMBER.search(reply.text)
         if not reply.accepted or found is None:
@@ -129,12 +150,15 @@ class Talk:
         items = [f"{expression}{{F{digits}.0}}" for expression in expressions]
         fit = max(1, (LINE - len("MG ")) // (1 + max(map(len, items), default=0)))
         for first in range(0, len(items), fit):
-            reply = self.line("MG " + ",".join(items[first : first + fit]))
-            parts = re.findall(f"[- ]\\d{{{digits}}}", reply.text)
-            if not reply.accepted or len(parts) != len(items[first : first + fit]):
-                raise reply.odd()
-            found += [int(part.replace(" ", "")) for part in parts]
+            found += self.again(partial(self._row, items[first : first + fit], digits))
         return found
+
+    def _row(self, items: Sequence[str], digits: int) -> list[int]:
+        reply = self.line("MG " + ",".join(items))
+        parts = re.findall(f"[- ]\\d{{{digits}}}", reply.text)
+        if not reply.accepted or len(parts) != len(items):
+            raise reply.odd()
+        return [int(part.replace(" ", "")) for part in parts]
 
     def code(self) -> int:
         """The error code, by TC."""
@@ -145,7 +169,10 @@ class Talk:
         return int(found.group())
 
     def refusal(self, text: str) -> int:
-        """The code of a line that must be refused; 0 when it was accepted."""
+        """The code of a line that must be refused and does nothing; 0 when it was accepted."""
+        return self.again(lambda: self._refusal(text))
+
+    def _refusal(self, text: str) -> int:
         reply = self.line(text)
         if reply.accepted:
             return 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from typing import Any
 
 import pytest
@@ -14,7 +15,7 @@ from device.simulator.simulation import Simulation
 from device.simulator.twoletter.profile import DEFAULTS, SETTINGS, Profile
 from device.simulator.twoletter.profile_file import profile_text, read_profile
 from device.transport.loopback import Loopback
-from tests.long import is_long
+from tests.long import count, is_long
 
 NUMBERS = {"line_characters": 60, "serial_number": 4711, "labels": 200, "bracket_levels": 7}
 TEXTS = {"revision": "Rev 1.0i", "copyright": "COPYRIGHT 1998"}
@@ -29,6 +30,21 @@ def checked(profile: Profile | None = None, name: str = "ssc2", **more: Any) -> 
     return conform(line, clock=line.clock, **more)
 
 
+class Late(Loopback):
+    """A busy computer: now and then the script has waited in vain, and what came is there at its next look."""
+
+    def __init__(self, simulation: Simulation, chance: random.Random) -> None:
+        super().__init__(simulation)
+        self._chance, self._held, self.times = chance, b"", 0
+
+    def read(self, timeout_s: float) -> bytes:
+        came, self._held = self._held or super().read(timeout_s), b""
+        if came and timeout_s and self._chance.random() < LATE:
+            self.times += 1
+            came, self._held = b"", came
+        return came
+
+
 def others(name: str) -> list[Any]:
     """Every other value that a setting can have."""
     default = DEFAULTS[name]
@@ -39,6 +55,7 @@ def others(name: str) -> list[Any]:
     return [NUMBERS[name]] if name in NUMBERS else [TEXTS[name]]
 
 
+LATE = 0.02  # of all looks at the line
 FLIPS = [(name, value) for name, each in SETTINGS.items() if not each.unseen for value in others(name)]
 
 
@@ -110,6 +127,17 @@ def test_several_differences_at_once() -> None:
         commands={"SP": {"reply": "7.0"}, "FV": {"high": 4095}},
     )
     assert checked(flipped).profile == flipped
+
+
+@pytest.mark.parametrize("seed", range(count(2, 50)))
+def test_answers_that_are_handed_over_late_are_not_misread(seed: int) -> None:
+    simulation = Simulation(model("ssc1"), profile=Profile(status_sign=True, echo_return="CR"))
+    before = dict(simulation.unit.state.settings)
+    line = Late(simulation, random.Random(seed))
+    report = conform(line, clock=line.clock, cw=2)
+    assert line.times >= 3
+    assert [each.name for each in report.differences] == ["echo_return", "status_sign"] and report.odd == []
+    assert simulation.unit.state.settings == before
 
 
 @pytest.mark.parametrize("echo", [0, 1])
