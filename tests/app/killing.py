@@ -27,6 +27,9 @@ from codegen.program import Program, Step
 
 STEPS = 60
 ALLOWED_S = 2.0
+PAUSES_MS = (0, 1, 5, 20)  # from one edit to the next
+EDIT_S = sum(PAUSES_MS) / len(PAUSES_MS) / 1000  # on average
+PATIENCE_S = 20.0
 
 
 def program(number: int) -> Document:
@@ -58,7 +61,7 @@ def live(path: Path, recovery: Path, pipe: int, autosave_ms: int, seed: int) -> 
             tell(f"b {number} 0")
             session.save()
             tell(f"s {number} 0")
-        timer.start(chance.choice((0, 1, 5, 20)))
+        timer.start(chance.choice(PAUSES_MS))
 
     def tell(words: str) -> None:
         os.write(pipe, f"{words}\n".encode())
@@ -97,14 +100,23 @@ def one(folder: Path, autosave_ms: int, chance: random.Random) -> tuple[float, b
         finally:
             os._exit(1)
     os.close(writing)
-    select.select([reading], [], [], 20)  # it lives: the first edit is made
-    time.sleep(chance.uniform(0, 0.05 + 2.5 * autosave_ms / 1000))
+    began = lived(reading, chance.uniform(0, 0.05 + 2.5 * autosave_ms / 1000) / EDIT_S)
+    time.sleep(chance.uniform(0, 2 * EDIT_S))  # anywhere between two edits, or in one
     os.kill(child, signal.SIGKILL)
     killed = time.monotonic()
     _, status = os.waitpid(child, 0)
     assert os.WIFSIGNALED(status), "it ended by itself"
-    found = told(_all(reading))
+    found = told(began + _all(reading))
     return judge(path, recovery, found, start, killed)
+
+
+def lived(pipe: int, edits: float) -> bytes:
+    """What a life tells until it has made so many edits, however long a busy computer lets it wait for each."""
+    data = b""
+    while data.count(b"e ") <= edits:
+        assert select.select([pipe], [], [], PATIENCE_S)[0], "it does not live"
+        data += os.read(pipe, 65536)
+    return data
 
 
 def judge(path: Path, recovery: Path, found: Told, start: int, killed: float) -> tuple[float, bool]:
