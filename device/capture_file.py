@@ -16,8 +16,10 @@ import numpy as np
 from codegen.disk import FileUnreadable, save_text
 from codegen.files import setup_dumps, setup_loads
 from codegen.models import MODELS
+from device.bits import Signal
 from device.capture import BY_NAME, SLOWEST, Capture, Channel
 from device.capture import channels as recorded_by
+from device.waves import levels, of_capture
 
 FORMAT, VERSION = "twoletter capture", 2
 EVEN = 1  # the version whose values follow each other evenly; live ones bring their times, older programs say so
@@ -25,6 +27,8 @@ CSV, NUMPY = ".csv", ".npz"
 MARK = "# "
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")  # not all that float() takes is one here
 DAMAGE = (zipfile.BadZipFile, zlib.error, KeyError, ValueError, OSError, EOFError, NotImplementedError, MemoryError)
+PLAIN = ("on", "1")
+DIVIDES = re.compile(r"[,;\"\s]+")  # cells of a line, or lines
 CHANGED = "changed, as a spreadsheet does when it saves; open the file as it was saved here"
 MOST = 1_000_000  # values of a channel; no controller holds as many
 
@@ -58,7 +62,8 @@ def load(path: str | Path) -> Capture:
 def dumps(capture: Capture) -> str:
     """The text of a CSV file: what it is, a line of names, then one line for each moment.
 
-    Every channel stands there as the controller counts it and, where that is another number, in the user's unit.
+    Every channel stands there as the controller counts it and, where that is another number, in the user's unit; of
+    inputs, outputs and switches each bit has a column behind.
     """
     names, columns = ["time s"], [capture.times]
     for channel in capture.channels:
@@ -70,6 +75,10 @@ def dumps(capture: Capture) -> str:
         if scale != 1.0:
             names.append(f"{channel.label} {unit}")
             columns.append(capture.of(channel) / scale)
+    for channel in capture.channels:
+        for signal in of_capture(capture, channel):
+            names.append(_heading(signal))
+            columns.append(levels(capture.of(channel), signal.bit))
     about = json.dumps(_about(capture) | {"columns": names}, ensure_ascii=False)
     lines = [MARK + about, ",".join(names)]
     lines += [",".join(map(_text, row)) for row in zip(*(column.tolist() for column in columns), strict=True)]
@@ -121,6 +130,13 @@ def unpacked(data: bytes) -> Capture:
 
 
 # ------------------------------------------------------------------------ details
+
+
+def _heading(signal: Signal) -> str:
+    """What a bit is called, and what its 1 means where that is not plain; without what divides a table."""
+    on = signal.bit.words[1]
+    means = "" if on in PLAIN else f" (1: {on})"
+    return " ".join(DIVIDES.sub(" ", signal.label).split()) + means
 
 
 def _text(number: float) -> str:

@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from device.bits import Signal
 from device.capture import Capture, Channel, scale_of
 from device.curves import AROUND, FITS, MOST_OF_A_SHAPE, Curve, Derived, Measured, group_of, straight
+from device.waves import Wave, levels, wave
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -176,9 +178,42 @@ class Followed:
         return len(times) == AT_ONCE
 
 
+class Changes:
+    """The numbers of a track of bits that differ from the one before, in a track of its own: few, also of an hour."""
+
+    def __init__(self, source: Track, most: int) -> None:
+        self.track = Track(most)
+        self.changed = 0  # the bits that have ever changed
+        self._source, self._last, self._next = source, math.nan, source.first
+
+    def follow(self) -> None:
+        """Takes what is new, and at first everything that is there."""
+        times, values = self._source.numbered(self._next, self._source.count)
+        self._next = self._source.count
+        if not len(values):
+            return
+        before = np.append(self._last, values[:-1])
+        new = values != before
+        both = new & np.isfinite(before)
+        turned = values[both].astype(np.int64) ^ before[both].astype(np.int64)
+        self.changed |= int(np.bitwise_or.reduce(turned)) if len(turned) else 0
+        self._last = float(values[-1])
+        self.track.add(times[new], values[new])
+
+    def wave(self, signal: Signal, low: float, high: float) -> Wave:
+        """The level of one bit over a stretch of time."""
+        times, values = self.track.between(low, high)
+        times = np.maximum(times, low) if math.isfinite(low) else times
+        end = max(min(high, self._source.last_time), float(times[-1])) if len(times) else math.nan
+        return wave(times, values, end, signal.bit)
+
+
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One curve of the roll: how it is called, its values in counts (or V, or bits), and what one shown unit counts."""
+    """One curve of the roll: how it is called, its values in counts (or V, or bits), and what one shown unit counts.
+
+    `signal`: it is one bit of them, and `changes` knows when it changed.
+    """
 
     label: str
     unit: str
@@ -187,12 +222,13 @@ class Line:
     derived: Derived | None
     track: Track
     scale: float
+    signal: Signal | None = None
+    changes: Changes | None = None
 
     def curve(self, values: Values) -> Curve:
         """Values of its track as a curve in the person's unit."""
-        return Curve(
-            self.label, self.unit, self.group, self.channel.axis, values / self.scale, self.channel, self.derived
-        )
+        values = levels(values, self.signal.bit) if self.signal is not None else values / self.scale
+        return Curve(self.label, self.unit, self.group, self.channel.axis, values, self.channel, self.derived)
 
 
 class Roll:
@@ -209,6 +245,7 @@ class Roll:
         if before is not None:
             self._seen, self._ring, self.start = before._seen, before._ring, before.start
         self._followed: dict[tuple[Derived, str], Followed] = {}
+        self._changes: dict[str, Changes] = {}
 
     def lines(self, channels: Sequence[Channel], derived: Collection[Derived], setup: Setup | None) -> tuple[Line, ...]:
         """Every channel that is watched, then what is derived of it."""
@@ -246,6 +283,15 @@ class Roll:
             self._followed[key].follow()
             self._fresh.append(self._followed[key].track)
         return self._followed[key].track
+
+    def changes(self, channel: Channel) -> Changes:
+        """When the bits of a channel that is watched have changed."""
+        key = channel.live_key
+        if key not in self._changes:
+            self._changes[key] = Changes(self.tracks[key], self._most)
+            self._changes[key].follow()
+            self._fresh.append(self._changes[key].track)
+        return self._changes[key]
 
     def capture(self, channels: Sequence[Channel], low: float, high: float) -> Capture:
         """A stretch as a capture with times of its own; NaN where a channel was not read at a moment."""
@@ -289,6 +335,8 @@ class Roll:
             found |= bool(fresh.any())
         for followed in self._followed.values():
             followed.follow()
+        for changes in self._changes.values():
+            changes.follow()
         return found
 
     @property

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from device import live
+from device.bits import STATUS_MOVING
 from device.capture import Channel, Trigger, When, shown_by
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-MOVING_BIT = 15  # of the status word that RD records
 BESIDE = 2  # elements before the bracket in which the trigger may lie as well: what was read takes a moment to come
 
 
@@ -65,7 +65,7 @@ def signal_of(trigger: Trigger, channels: Sequence[Channel], values: NDArray[np.
     if channel.what == "commanded" and trigger.when is When.MOTION:
         return np.concatenate([np.zeros(1, dtype=np.bool_), row[1:] != row[:-1]])
     if channel.what == "axis_status" and trigger.when is When.MOTION:
-        return _bit(row, MOVING_BIT)
+        return _bit(row, STATUS_MOVING.number)
     if trigger.when is When.INPUT:
         on = _bit(row, trigger.number - 1)
         return on if trigger.rising else ~on

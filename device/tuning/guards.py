@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, TypeVar
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.fixed import ONE, scaled
 from device.backing_up import LINE_S, REFUSAL_S, exact
+from device.bits import FORWARD, REVERSE
 from device.former import GAINS, HELD, LIMITS, PROFILE, Former, assign, kept, present, taken
 from device.jog import FURTHEST
 from device.lease import LOOK_S
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from device.backup import Value
 
 T = TypeVar("T")
-FREE = {"forward": 0b1000, "reverse": 0b0100}  # of _TS: set while it is not active, whatever CN
+SIDES = {"forward": FORWARD, "reverse": REVERSE}  # of _TS: whatever CN
 LIMITED = (2, 3)  # stop codes: FL or the forward switch, BL or the reverse one
 ERROR_SHARE = 1.5  # of a step: more than that and the loop is not following any more
 SPARE = 2.0  # times what an axis hangs below its place already: it may hang so far with the gains that are tried
@@ -145,7 +146,7 @@ def _tripped(switches: Value | None) -> str:
     """Which limit switch is active, from _TS: unlike _LF and _LR it knows the polarity (CN). Or nothing."""
     if switches is None:
         return ""
-    return next((side for side, bit in FREE.items() if not switches // ONE & bit), "")
+    return next((side for side, bit in SIDES.items() if bit.on(switches // ONE)), "")
 
 
 def _inside(guard: Guard, former: Former) -> None:

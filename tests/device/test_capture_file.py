@@ -59,10 +59,12 @@ def test_every_number_comes_back_to_the_last_bit(values: np.ndarray) -> None:
 
 def test_a_spreadsheet_finds_times_counts_and_units() -> None:
     lines = dumps(EXAMPLE).splitlines()
-    assert lines[1] == "time s,Position X counts,Motor command Y V,Inputs,Position X mm"
+    bits = ",".join(f"Input {number}" for number in range(1, 9))
+    assert lines[1] == f"time s,Position X counts,Motor command Y V,Inputs,Position X mm,{bits}"
     first = lines[2].split(",")  # two intervals of 8 samples of 250/1 024 000 s before the trigger
     assert float(first[0]) == pytest.approx(-2 * 8 * 250 / 1_024_000)
     assert first[1] == "-2147483648" and float(first[4]) == pytest.approx(-2147483648 / 500.5)
+    assert first[5:] == ["1"] * 8 and lines[3].split(",")[5:] == ["0"] * 8 and lines[4].split(",")[5:] == [""] * 8
 
 
 def as_in_germany(text: str) -> str:
@@ -102,7 +104,7 @@ def without_column(text: str, column: int) -> str:
         (lambda text: text.replace('["position", "X"]', '[[], "X"]'), "there is not"),
         (lambda text: text.replace('["position", "X"]', '["position", "XY"]'), "there is not"),
         (lambda text: text.replace('"model": "ssc2"', '"model": []'), "about itself"),
-        (lambda text: text.replace("9.9998", "9,9998"), "line 3 has 6 numbers, 5 belong there"),
+        (lambda text: text.replace("9.9998", "9,9998"), "line 3 has 14 numbers, 13 belong there"),
         (lambda text: text.replace("9.9998", "9_9998"), "line 3: “9_9998” is not a number"),
         (lambda text: text.replace("9.9998", "٩"), "is not a number"),
         (lambda text: text[:200], "cannot be read"),

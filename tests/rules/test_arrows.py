@@ -26,7 +26,7 @@ MAY = {
         THREADS,
         (
             *("widgets", "codegen", "resources", "device.api", "device.capture", "device.curves", "device.jog"),
-            *("device.live", "device.roll", "device.terminal1500"),
+            *("device.bits", "device.live", "device.roll", "device.waves", "device.terminal1500"),
             *("device.tuning.entry", "device.tuning.loop", "device.tuning.metrics"),
         ),
     ),

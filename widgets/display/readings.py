@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.numbers import parse_number
+from device.bits import ERROR, FORWARD, HOME, LATCH, MOTOR, MOVING, REVERSE
 from widgets.display.analog import volts_words
 from widgets.display.position import AxisShown
 from widgets.parts.axis_bar import Marks
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from codegen.setup import Axis
     from device.api import Row
 
-# bits of TS (spec/tables.json, TS_bits)
-MOVING, ERROR, MOTOR_OFF, FORWARD_FREE, REVERSE_FREE, HOME, NOT_ARMED = 128, 64, 32, 8, 4, 2, 1
 USUAL_TM = 1000.0  # µs; the sample period at which a controller tells speeds in counts a second
 # stop codes that are worth a word of their own (spec/tables.json, stop_codes)
 STOP_WORDS = {6: "abort input", 8: "off on error", 99: "not in position"}
@@ -44,15 +43,15 @@ def switches_of(row: Row, letter: str, now: float) -> Switches:
     value = row.value(key)
     if not math.isfinite(value):
         return Switches()
-    bits = int(value)
+    told = int(value)
     return Switches(
-        forward=not bits & FORWARD_FREE,
-        reverse=not bits & REVERSE_FREE,
-        home=bool(bits & HOME),
-        motor_on=not bits & MOTOR_OFF,
-        moving=bool(bits & MOVING),
-        error=bool(bits & ERROR),
-        latch_armed=not bits & NOT_ARMED,
+        forward=FORWARD.on(told),
+        reverse=REVERSE.on(told),
+        home=HOME.on(told),
+        motor_on=MOTOR.on(told),
+        moving=MOVING.on(told),
+        error=ERROR.on(told),
+        latch_armed=LATCH.on(told),
         stale=row.stale(key, now),
     )
 

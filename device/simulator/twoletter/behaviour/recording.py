@@ -9,6 +9,7 @@ from codegen.twoletter.fixed import ONE
 from codegen.twoletter.nodes import Dimension, Operand
 from device.simulator.twoletter.behaviour.following import numbers
 from device.simulator.twoletter.behaviour.io import converted
+from device.simulator.twoletter.behaviour.status import switches
 from device.simulator.twoletter.state import AXES, CommandError, Recording, Strand
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 RUNNING, NOTHING_CHOSEN, UNDEFINED_ARRAY, BAD_SOURCE = 80, 81, 82, 57
 TORQUE_FULL: Final = 32767  # what 10 V are recorded as (commands.md 4)
+SWITCHES_RECORDED: Final = 0b11111 * ONE  # of TS only bits 0 to 4 are valid (dmc-1412-1414.txt l.3433)
 
 
 def _idle(unit: Unit) -> Recording:
@@ -97,12 +99,6 @@ def input_edge(unit: Unit, number: int, rising: bool) -> None:
         unit.motion.latch(number - 1)
 
 
-def _switches(unit: Unit, axis: int) -> int:
-    motion = unit.motion
-    bits = motion.forward_level(axis) << 3 | motion.reverse_level(axis) << 2 | motion.home_level(axis) << 1
-    return int(bits | (not motion.latch_armed(axis))) * ONE
-
-
 RECORDED: Final[dict[str, Callable[[Unit, int], int]]] = {
     "DE": lambda unit, axis: unit.motion.auxiliary(axis) * ONE,
     "TP": lambda unit, axis: unit.motion.position(axis) * ONE,
@@ -111,7 +107,7 @@ RECORDED: Final[dict[str, Callable[[Unit, int], int]]] = {
     "RL": lambda unit, axis: unit.motion.latched(axis) * ONE,
     "TI": lambda unit, axis: unit.inputs * ONE,
     "OP": lambda unit, axis: unit.state.outputs * ONE,
-    "TS": _switches,
+    "TS": lambda unit, axis: switches(unit, axis) & SWITCHES_RECORDED,
     "SC": lambda unit, axis: unit.motion.stop_code(axis) * ONE,
     "NO": lambda unit, axis: unit.motion.status_word(axis) * ONE,
     "TT": lambda unit, axis: round(unit.motion.torque(axis) / 10.0 * TORQUE_FULL) * ONE,
