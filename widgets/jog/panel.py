@@ -80,6 +80,7 @@ class JogPanel(Panel):
         self.open_page = ONE
         self.empty, self.result, self.arrows = QLabel(OFFLINE), QLabel(), ArrowLine()
         self.halt, self.more = QPushButton("Stop this move"), MoreAxes()
+        self.halt.setEnabled(False)  # until something moves
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self._lay_out()
 

@@ -67,6 +67,8 @@ class Bar(QWidget):
         self.over, self.words, self.progress = QLabel("over", self), QLabel(self), QProgressBar(self)
         self.fit, self.save, self.open, self.picture, self.more = (QToolButton(self) for _ in range(5))
         self.tools = (self.fit, self.save, self.open, self.picture)
+        for each in (self.capture, self.live):
+            each.setEnabled(False)  # until it is known what is connected
         self._name_all()
         yield
         self._lay_out()

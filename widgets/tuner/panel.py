@@ -75,6 +75,8 @@ class TunerPanel(Panel):
         self.axes, self.pages, self.page = QComboBox(), QWidget(), MANUAL
         self.buttons = [QPushButton(name) for name in PAGES]
         self.use, self.burn = QPushButton("Use these gains"), QPushButton("Save PID gains…")
+        for each in (self.use, self.burn):
+            each.setEnabled(False)  # until it is known whether they may
         self.manual: ManualPage
         self.automatic: AutomaticPage
         self.model: ModelPage

@@ -50,6 +50,8 @@ class StepBox(QWidget):
         self.unit, self.words = QLabel(fields), QLabel(self)
         self.free = QCheckBox("I have looked: this way is free", self)
         self.begin, self.end = QPushButton("Start step", self), QPushButton("Cancel", self)
+        for each in (self.free, self.begin, self.end):
+            each.setEnabled(False)  # until it was judged
         self._setup: Setup | None = None
         self._axis = "X"
         self._agreed = ""
