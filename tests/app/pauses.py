@@ -11,8 +11,8 @@ from PySide6.QtCore import QElapsedTimer, Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 from tests.long import record
+from tests.slower import FULL_SPEED_MS, beside
 from tests.stage import TICK_S, Stage
-from tests.widgets.program.test_speed import FULL_SPEED_MS, beside
 
 LIMIT_MS = 50.0
 RUNS = 3

@@ -65,11 +65,12 @@ class SlowDisk:
     """Lets nothing through until it is told to; or fails then."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.ready, self.full = threading.Event(), False
+        self.ready, self.reached, self.full = threading.Event(), threading.Event(), False
         fsync = os.fsync
 
         def held(file: int) -> None:
             if threading.current_thread() is not threading.main_thread():
+                self.reached.set()
                 assert self.ready.wait(30)
                 if self.full:
                     raise OSError(28, "No space left on device")
@@ -103,6 +104,7 @@ def test_a_run_and_the_note_that_was_just_typed_are_in_the_logbook(
     page.note.setFocus()
     QTest.keyClicks(page.note, "good")  # the field is never left
     studio.window.close()
+    assert disk.reached.wait(30)  # the line of the run, which a thread writes
     stage.go(5)
     assert studio.window.isVisible() and book_of(stage).entries[0].note == ""  # its disk is slow: it is waited for
     disk.ready.set()

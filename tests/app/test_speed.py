@@ -27,8 +27,8 @@ from device.simulator.process import SimulatorProcess
 from tests.app.hands import until
 from tests.app.pauses import LIMIT_MS, Heart, Ticks, too_long
 from tests.long import count, is_long, record
+from tests.slower import FULL_SPEED_MS, beside
 from tests.stage import Stage
-from tests.widgets.program.test_speed import FULL_SPEED_MS, beside
 from widgets.teach.panel import SCREEN
 from widgets.tuner.panel import MANUAL, MODEL
 

@@ -17,6 +17,7 @@ from device.simulator.process import SimulatorProcess
 from tests.device.holding import ACCELERATION, SPEED
 from tests.device.test_latency import NO_PTY, wait_until
 from tests.long import count, is_long, record
+from tests.slower import queued_s
 
 STOPPING_S = SPEED / ACCELERATION
 LEASE_S, DEAD_S = 0.15, 0.5  # safety.md, 4: beyond the stopping time; where the computer is dead
@@ -152,13 +153,16 @@ def stopped(machine: SimulatorProcess, began: float) -> float:
 def trial(machine: SimulatorProcess, studio: Studio, way: str) -> float:
     """Seconds from what ends the hold until the axis stands; too long, while the computer stood still, is Disturbed."""
     run(machine, studio)
+    pids = machine.pid, studio.process.pid
     with Heart() as heart:
-        began = time.monotonic()
+        began, queued = time.monotonic(), queued_s(*pids)
         if way.startswith("SIG"):
             studio.process.send_signal(getattr(signal, way))
         else:
             studio.tell(way)
         taken = stopped(machine, began)
+        if not is_long():
+            taken -= max(0.0, queued_s(*pids) - queued)  # what other programs had of the processors
     after(machine, studio, way)
     if taken > WITHIN[way] + STOPPING_S + SEEN_S and heart.worst > STALL_S:
         raise Disturbed(f"{way}: {taken:.3f} s, while a line had to wait for {heart.worst:.3f} s")

@@ -12,6 +12,7 @@ import pytest
 
 from device.simulator.process import SimulatorFailed, SimulatorProcess
 
+TRIES = 5  # a busy computer keeps a process waiting now and then; what does not keep its time fails each of them
 pytestmark = pytest.mark.paced
 
 
@@ -118,10 +119,13 @@ def test_real_time_is_kept() -> None:
         client = connect(simulator.address)
         client.sendall(b"\r")
         until(client, b":")
-        began = time.monotonic()
-        client.sendall(b"WT 512\r")
-        until(client, b":")
-        assert time.monotonic() - began == pytest.approx(0.5, abs=0.15)
+        off: list[float] = []
+        while not off or (min(off) > 0.15 and len(off) < TRIES):
+            began = time.monotonic()
+            client.sendall(b"WT 512\r")
+            until(client, b":")
+            off.append(abs(time.monotonic() - began - 0.5))
+        assert min(off) <= 0.15
 
 
 @pytest.mark.alone
@@ -133,15 +137,18 @@ def test_a_paced_pseudo_terminal() -> None:
     with SimulatorProcess("ssc4", pty=True, baud=1200) as simulator:
         when_settled(simulator)
         terminal = os.open(simulator.address, os.O_RDWR | os.O_NOCTTY)
-        os.write(terminal, b"TPX\r")
-        began, data = time.monotonic(), b""
-        while not data.endswith(b"\r\n:"):
-            assert select.select([terminal], [], [], 5)[0]
-            data += os.read(terminal, 100)
-        os.close(terminal)
-        assert data == b" 0000000000\r\n:"
         seconds = 18 * 10 / 1200  # 4 characters there, 14 back
-        assert seconds - 0.02 < time.monotonic() - began < seconds + 0.25
+        late: list[float] = []
+        while not late or (not -0.02 < late[-1] < 0.25 and len(late) < TRIES):
+            began, data = time.monotonic(), b""
+            os.write(terminal, b"TPX\r")
+            while not data.endswith(b"\r\n:"):
+                assert select.select([terminal], [], [], 5)[0]
+                data += os.read(terminal, 100)
+            late.append(time.monotonic() - began - seconds)
+            assert data == b" 0000000000\r\n:"
+        os.close(terminal)
+        assert -0.02 < late[-1] < 0.25
 
 
 def test_an_ended_process_is_said() -> None:

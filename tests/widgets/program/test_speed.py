@@ -6,8 +6,6 @@ work is timed beside each measurement; what that takes longer than on the machin
 
 from __future__ import annotations
 
-import statistics
-import time
 from collections.abc import Callable
 from functools import partial
 
@@ -15,29 +13,16 @@ import pytest
 
 from tests.benchmarks.figure import Figure
 from tests.long import is_long, record
+from tests.slower import FULL_SPEED_MS, beside
 from tests.widgets.program.measure import MODES, SEED, edits, opening, undoing, wheel
 
 SLACK = 2.0
-FULL_SPEED_MS = 8.7  # what `beside` takes on the machine of the bounds
 MEASURES: dict[str, Callable[[], Figure]] = {
     **{f"edits-{mode}": partial(edits, mode, 100 if is_long() else 10) for mode in MODES},
     "opening": opening,
     "wheel": wheel,
     "undoing": partial(undoing, 1000 if is_long() else 60),
 }
-
-
-def beside() -> float:
-    """Milliseconds of processor time of a fixed piece of work; the middle of nine."""
-
-    def once() -> float:
-        began = time.process_time()
-        kept: dict[int, tuple[int, str]] = {}
-        for number in range(60_000):
-            kept[number % 997] = (number, str(number))
-        return 1000 * (time.process_time() - began)
-
-    return statistics.median(once() for _ in range(9))
 
 
 @pytest.mark.alone
