@@ -8,7 +8,8 @@ from codegen.twoletter.problems import ERROR_TEXTS
 from device.poll import SHARE
 from device.proof import with_proof
 from device.tasks import LinkError, LinkLost, NotAllowed, Refused, Send, Steps, Stopped, Wait
-from device.wire import NOTHING, Answer, Expectation, Frame, Kind, Shape, framed
+from device.undecided import NOTHING
+from device.wire import Answer, Expectation, Frame, Kind, Shape, framed
 
 if TYPE_CHECKING:
     from device.api import Controller

@@ -14,10 +14,10 @@ from codegen.twoletter.problems import ERROR_TEXTS
 from codegen.twoletter.slow_mark import BURNS, FULL, percent_of
 from device.asking import Listing
 from device.backup import parameter_names
-from device.door import LISTS, choose, only_reads
+from device.door import choose, only_reads
 from device.download import held_program
 from device.identify import fence, read_once
-from device.proof import proved, tells, with_proof
+from device.proof import proved, with_proof
 from device.stop import StopState
 from device.tasks import LinkError, LinkLost, NotAllowed, Refused, Send, Steps, data_line
 from device.wire import FRAME_COLUMNS, Answer, Kind, Prompts, Revision, Shape, Upload
@@ -83,13 +83,24 @@ def typed(controller: Controller, command: str, timeout_s: float | None) -> Step
     before = (yield from _before_start(controller)) if "XQ" in found else 0
     limit = timeout_s or max([SLOW.get(name, USUAL_S) for name in found], default=USUAL_S)
     if "UL" in found:
-        answer = yield Send(data_line(command), Upload(), timeout_s=1.0, extends=True)
-        return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
+        return (yield from _listed(controller, command))
     if _plain(command, found, controller):
         return (yield from _with_proof(controller, command, limit, before))
     count = max(len(parse_line(command).statements), 1)
     answer = yield Send(data_line(command), Prompts(count), limit, refusal_s=0.05)
     return (yield from _reply(controller, answer, command, limit))
+
+
+def _listed(controller: Controller, command: str) -> Steps[Reply]:
+    """`UL`: where a program runs and may print, what it holds is told from what it prints as far as it is known."""
+    known, quiet = controller.listing, controller.waiting.position == frozenset()
+    answer = yield Send(data_line(command), Upload(known=known, prints=not quiet), timeout_s=1.0, extends=True)
+    if answer.reading is None:
+        return Reply(answer.text, answer.kind is Kind.ACCEPTED, answer.certain)
+    if known is not None and answer.reading.holds(known):
+        answer.reading.decide(known)
+        return Reply(known, True)
+    return Reply(answer.reading.decide_alone(), True, certain=False)
 
 
 def _enter(controller: Controller, command: str, name: str) -> Steps[Reply]:
@@ -128,22 +139,11 @@ def _plain(command: str, found: list[str], controller: Controller) -> bool:
 def _with_proof(controller: Controller, command: str, limit: float, before: int) -> Steps[Reply]:
     """The frame behind the command comes only when the command was accepted."""
     nonce = next(controller.nonces)
-    answer = yield Send(*with_proof(nonce, command), limit, refusal_s=0.05)
-    if controller.waiting.position != frozenset() and _lines_told(command) not in (None, _lines_in(answer.text)):
+    line, proof = with_proof(nonce, command)
+    answer = yield Send(line, proof, limit, refusal_s=0.05)
+    if controller.waiting.position != frozenset() and proof.count not in (None, len(answer.text.splitlines())):
         answer = replace(answer, certain=False)  # a line of the program that runs may be among them
     return (yield from _reply(controller, answer, command, limit, nonce, before))
-
-
-def _lines_told(command: str) -> int | None:
-    """How many lines the answer has; None where that is not known."""
-    telling = [statement for statement in parse_line(command).statements if tells(statement)]
-    if any(not isinstance(each, nodes.Command) or each.name in LISTS for each in telling):
-        return None
-    return len(telling)
-
-
-def _lines_in(text: str) -> int:
-    return len(text.splitlines())
 
 
 def _reply(

@@ -16,6 +16,7 @@ from device.door import LEAVE
 from device.identify import fence, read_once
 from device.tasks import LinkError, LinkLost, Refused, Send, Steps, Stopped, Wait
 from device.transport import LineSettings
+from device.undecided import Reading
 from device.wire import Answer, Frame, Kind, Prompts, Shape, Upload, framed
 
 T = TypeVar("T")
@@ -24,6 +25,7 @@ BEHIND_S = 0.02  # a refusal follows the proof on its line at once: adapters may
 LONGEST_SETTLE_S = 0.5  # over slow networks
 TRIES = 3  # to end a download that went wrong
 READINGS = 8  # of a program that may print meanwhile
+FEW = 3  # of them say what was printed, though not what the program is
 UNEVEN_S = 0.007  # between two of them, once, twice, three times
 MARGIN_S = 0.02  # beyond the way there and back that a read took just before
 FENCE_BYTES = len(framed("xx", [("_TC", Shape(3, 0))])) + 1 + 11  # there and back
@@ -34,7 +36,11 @@ class DownloadFailed(LinkError):
 
 
 class Unsteady(LinkError):
-    """No two readings of the program in the controller were the same."""
+    """No two readings of the program in the controller were the same; the shortest of them is the nearest."""
+
+    def __init__(self, nearest: str) -> None:
+        super().__init__("Not read: the running program prints in between. Halt it, or try again.")
+        self.nearest = nearest
 
 
 @dataclass(frozen=True, slots=True)
@@ -312,10 +318,10 @@ def upload_steps(nonces: Iterator[str], job: Job[str] | None) -> Steps[str]:
     return program_of((yield from _upload(job)))
 
 
-def _upload(job: Job[str] | None) -> Steps[Answer]:
+def _upload(job: Job[str] | None, known: str | None = None, prints: bool = False) -> Steps[Answer]:
     if job is not None:
         job.show("reading", 0, 0)
-    answer = yield Send(b"UL\r", Upload(), timeout_s=1.0, extends=True)
+    answer = yield Send(b"UL\r", Upload(prints, known), timeout_s=1.0, extends=True)
     if answer.kind is Kind.REFUSED:
         raise Refused(0, "The controller refused to send its program.")
     if answer.kind is not Kind.ACCEPTED:
@@ -328,25 +334,54 @@ def program_of(answer: Answer) -> str:
     return answer.text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def held_program(waiting: Waiting, nonces: Iterator[str], job: Job[str] | None = None) -> Steps[str]:
+def held_program(
+    waiting: Waiting, nonces: Iterator[str], job: Job[str] | None = None, most: int = READINGS
+) -> Steps[str]:
     """The same while a program may run: what it prints can come between two lines.
 
     Text only ever adds to a reading, so the program is what came twice with no reading shorter than it, unless one of
     its lines is what stood behind a reading: a busy line adds the same again and again. A program that may ask is not
-    read again: the second reading would be its answer.
+    read again: the second reading would be its answer. What was printed is told as text once the program is known.
     """
-    answers = [(yield from _upload(job))]
-    first = program_of(answers[0])
-    if waiting.position == frozenset() or Listing(first).may_ask(waiting.position):
-        return first
-    while len(answers) < READINGS:
-        yield Wait(UNEVEN_S * len(answers))  # out of step with what the program prints again and again
-        answers.append((yield from _upload(job)))
-        shortest = min((program_of(answer) for answer in answers), key=len)
-        printed = tuple(line for answer in answers for line in answer.behind.splitlines())
-        if [program_of(answer) for answer in answers].count(shortest) > 1 and not _holds(shortest, printed):
-            return shortest
-    raise Unsteady("Not read: the running program prints in between. Halt it, or try again.")
+    known = waiting.listing.text if waiting.listing is not None else None
+    if waiting.position == frozenset():
+        return program_of((yield from _upload(job, known)))
+    answers: list[Answer] = []
+    program: str | None = None
+    try:
+        while program is None and len(answers) < most:
+            if answers:
+                yield Wait(UNEVEN_S * len(answers))  # out of step with what the program prints again and again
+            answers.append((yield from _upload(job, known, prints=True)))
+            first = answers[0].reading
+            if first is not None and Listing(first.listing).may_ask(waiting.position):
+                return first.decide_alone(known)
+            program = _agreed(answers)
+    finally:
+        readings = [answer.reading for answer in answers if answer.reading is not None]
+        for reading in readings:
+            reading.decide(program if program is not None else _nearest(readings, known))
+    if program is None:
+        raise Unsteady(min(map(program_of, answers), key=len))
+    return program
+
+
+def _nearest(readings: Sequence[Reading], known: str | None) -> str | None:
+    """What the text of readings that do not agree is told from: a program is not in them for sure, but near enough."""
+    if known is not None and all(reading.holds(known) for reading in readings):
+        return known
+    shortest = min((reading.listing for reading in readings), key=len)
+    return shortest if len(readings) >= FEW and all(reading.holds(shortest) for reading in readings) else None
+
+
+def _agreed(answers: Sequence[Answer]) -> str | None:
+    """The program, once two readings agree on it; the first line of one that began within a text may be its end."""
+    texts = [program_of(answer) for answer in answers]
+    shortest = min(texts, key=len)
+    printed = tuple(line for answer in answers for line in answer.behind.splitlines())
+    begun = all(answer.reading is not None and answer.reading.behind_text
+                for answer, text in zip(answers, texts, strict=True) if text == shortest)  # fmt: skip
+    return shortest if texts.count(shortest) > 1 and not begun and not _holds(shortest, printed) else None
 
 
 def _holds(program: str, printed: Sequence[str]) -> bool:

@@ -30,6 +30,7 @@ class Badge(StrEnum):
 
 class NoticeKind(StrEnum):
     MESSAGE = "message"
+    UNCLEAR = "unclear"
     PROMPT = "question"
     FAULT = "fault"
     LOST = "lost"

@@ -48,6 +48,7 @@ class Owner(Protocol):
     def lost(self, sentence: str, *, refused: bool) -> None: ...
     def text(self, line: str) -> None: ...
     def standing(self, rest: str) -> None: ...
+    def unclear(self, lines: list[str]) -> None: ...
     def sent(self, data: bytes, source: str) -> None: ...
 
 
@@ -204,7 +205,7 @@ class Link:
         sure = self.sure and whole and self.transport.unsent() == 0
         self.transport.discard_output()
         self._out.discarded()
-        self.wire.give_up()
+        self.wire.drop()
         self._fail_all(Stopped("Dropped: STOP was pressed."), survivors=True)
         self.sure = False
         task = self.submit(stop(sure), Priority.STOP, "stop")
@@ -227,6 +228,10 @@ class Link:
         for line in self.wire.left.lines():
             self.note("*", line, "program")
             self._owner.text(line)
+        if unclear := self.wire.left.unclear():
+            for line in unclear:
+                self.note("<", line, "unclear")
+            self._owner.unclear(unclear)
         rest = self.wire.left.rest
         if rest and rest != self._told_rest and now - self._last_byte >= PROMPT_QUIET_S:
             self._told_rest = rest

@@ -9,7 +9,7 @@ from codegen.models import MODELS
 from device import commands
 from device.asking import Listing, parted
 from device.clock import TICKS, Reading, Verdict
-from device.download import recover, upload_steps
+from device.download import FEW, Unsteady, held_program, recover
 from device.happenings import Kind, NoticeKind, State
 from device.identify import Identity, identify, read_once, read_surely
 from device.stop import StopState
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from device.api import Controller
 
 HALT_S = 0.5  # a reset takes longer
+SHOWN = 3  # of lines nobody can tell apart; all of them stand in the terminal
 LAG_S = 3.0  # readings closer than this follow each other without a gap
 
 
@@ -189,7 +190,10 @@ class Events:
             lines += [int(v) for v in answer.values if v >= 0]
         c.waiting.threads(frozenset(lines))
         if lines and c.listing is None:
-            text = yield from upload_steps(c.nonces, None)  # to know its questions one reading is enough
+            try:
+                text = yield from held_program(c.waiting, c.nonces, most=FEW)
+            except Unsteady as reason:
+                text = reason.nearest  # enough to know its questions
             c.waiting.listing = Listing(text)
 
     def lost(self, sentence: str, *, refused: bool) -> None:
@@ -219,6 +223,14 @@ class Events:
             c.notify(NoticeKind.FAULT, f"?{number:03d} {text}")
             c.waiting.failed(number, text)
             c.door.question = c.waiting.question
+
+    def unclear(self, lines: list[str]) -> None:
+        """An answer was cut off by STOP, or a program read, while one ran: who can tell what it printed then?"""
+        c = self._c
+        if c.waiting.position != frozenset():
+            what = f"{len(lines)} lines" if len(lines) > 1 else "A line"
+            shown = " / ".join(line.strip() for line in lines[:SHOWN]) + (" …" if len(lines) > SHOWN else "")
+            c.notify(NoticeKind.UNCLEAR, f"{what} came that may be a reply or printed by the program: {shown}")
 
     def standing(self, rest: str) -> None:
         c = self._c

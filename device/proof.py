@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from codegen.twoletter import nodes
 from codegen.twoletter.commands import COMMANDS
 from codegen.twoletter.parse import parse_line
 from device.door import LISTS
 from device.tasks import Send, Steps
-from device.wire import ANYTHING, NOTHING, Answer, Proof, framed
+from device.undecided import ANYTHING, NOTHING
+from device.wire import Answer, Proof, framed
 
 PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")
 TELLING = LISTS | {"MG", "BS"} | {row.name for row in COMMANDS.values() if row.tells}
@@ -32,7 +33,23 @@ def with_proof(nonce: str, command: str, reply: str | None = None) -> tuple[byte
     statements = parse_line(command).statements
     if reply is None:
         reply = ANYTHING if any(tells(statement) for statement in statements) else NOTHING
-    return f"{command};{framed(nonce, ())}\r".encode(), Proof(nonce, len(statements), reply)
+    return f"{command};{framed(nonce, ())}\r".encode(), Proof(nonce, len(statements), reply, lines_told(statements))
+
+
+def lines_told(statements: Sequence[nodes.Statement]) -> int | None:
+    """How many lines the answer has; None where that is not known."""
+    telling = [statement for statement in statements if tells(statement)]
+    if any(not isinstance(each, nodes.Command | nodes.Print) for each in telling):
+        return None
+    if any(isinstance(each, nodes.Command) and (each.name in LISTS or _freely(each)) for each in telling):
+        return None
+    return len(telling)
+
+
+def _freely(command: nodes.Command) -> bool:
+    """Whether it says itself where its lines end (`MG "A",{^13},{N}`), or tells a text of its own."""
+    parts = (nodes.NoLineEnd, nodes.Character)
+    return command.name == "CW" or any(isinstance(item, parts) for item in command.arguments)
 
 
 def bare(line: str) -> str:

@@ -100,6 +100,9 @@ class Heard:
     def standing(self, rest: str) -> None:
         """Told by the notes."""
 
+    def unclear(self, lines: list[str]) -> None:
+        """Told by the notes."""
+
     def sent(self, data: bytes, source: str) -> None:
         """Nothing is ever sent."""
 

@@ -22,6 +22,7 @@ from enum import StrEnum
 
 from device.door import LEAVE, choose
 from device.tasks import Send, Steps, Wait
+from device.undecided import NOTHING
 from device.wire import Answer, Frame, Kind, Proof, Shape, fitting, framed
 
 NO_ANSWER_S = 0.5  # this long without an answer is NOT CONFIRMED
@@ -95,7 +96,9 @@ class Stopping:
         """
         nonce = next(self.nonces)
         line = f"{'AB' if self.abort else 'ST'};HX;{framed(nonce, ())}"
-        answer = yield Send(line.encode() + b"\r", Proof(nonce, 2), self._patience(), hold=True, refusal_s=0.04)
+        answer = yield Send(
+            line.encode() + b"\r", Proof(nonce, 2, NOTHING), self._patience(), hold=True, refusal_s=0.04
+        )
         if answer.kind is Kind.ACCEPTED:
             self._answered()
             return True

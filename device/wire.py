@@ -15,11 +15,13 @@ import string
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import groupby
+from operator import itemgetter
 
 from device.leftover import Leftover, refusal
+from device.undecided import ANYTHING, NOTHING, Dropped, Reading
 
 OPEN, CLOSE = 30, 31  # the characters that frame a read
-ANYTHING, NOTHING = ".*", "(?!)"  # what the lines of a reply look like
 IGNORED = b"\x00\x11\x13"  # fill and flow-control characters
 MARKED_END = "\x1a(?:\r\n)?(?P<text>(?:[^:\r\n][^\r\n]*\r\n)*):"  # its prompt may follow a program's text
 ANY_END = "\x1a(?P<text>[^:]*):?"  # its prompt stands within a line of that text, or was lost
@@ -59,12 +61,14 @@ class Frame:
 class Proof:
     """Expects the answer of a line of `prompts` statements, then the empty frame that proves it was accepted.
 
-    Lines that look like its `reply` are the answer's; what else came in between is a program's text.
+    Lines that look like its `reply` are the answer's; what else came in between is a program's text. `count`: how
+    many lines it has, where that is known.
     """
 
     nonce: str
     prompts: int = 1
     reply: str = ANYTHING
+    count: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +80,15 @@ class Prompts:
 
 @dataclass(frozen=True, slots=True)
 class Upload:
-    """Expects program lines up to control-Z and a prompt."""
+    """Expects program lines up to control-Z and a prompt.
+
+    `prints`: a program that runs may print in between; whoever asks tells the `Answer.reading` apart. `known`: the
+    program, as far as it is known; `reply`: what its lines look like.
+    """
+
+    prints: bool = False
+    known: str | None = None
+    reply: str = ANYTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +117,7 @@ class Answer:
     behind: str = ""  # of an upload: a program's text that came right behind it
     certain: bool = True
     refused: bool = False  # of uncertain: something stood there like a refusal, and was taken out of the text
+    reading: Reading | None = None  # of an upload beside a program that prints: to be decided
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,6 +222,15 @@ class Wire:
             self._release(len(self._buffer))
         return found
 
+    def drop(self) -> None:
+        """Ends the expectation at once: its answer may still come, and is no text."""
+        expected, self._expected = self._expected, None
+        if expected is not None:
+            self.left.dropped(_dropped(expected))
+        if isinstance(expected, Proof | Prompts):
+            self.left.owe(self._prompts_of(expected))
+        self._release(len(self._buffer))
+
     def give_up(self) -> Answer:
         """Ends the expectation without its answer: what came is text, and the answer says uncertain or silent."""
         came = bytes(self._buffer).decode("ascii")
@@ -218,6 +240,8 @@ class Wire:
         refused = isinstance(expected, Frame | Proof) and self._take_refusal(expected)
         if not refused and isinstance(expected, Proof | Prompts):
             self.left.owe(self._prompts_of(expected))
+        elif isinstance(expected, Upload):
+            self.left.dropped(_dropped(expected))
         self._release(len(self._buffer))
         kind = Kind.UNCERTAIN if something else Kind.SILENT
         return Answer(kind, text=came, certain=False, refused=refused)
@@ -256,16 +280,25 @@ class Wire:
         start = self._buffer.find(mark)
         if start < 0 or len(self._buffer) == start + len(mark):
             return None
-        window = self.left.unprompted(self._window(start))  # prompts of a stop, which nobody waited for
+        window = self._window(start)
         self._take(start)
         self._drop(len(mark))
+        if self.left.waits and expected.reply == NOTHING:  # prompts of what was dropped, then ours
+            self.left.owe(self._prompts_of(expected))
+            self.left.add(window)
+            self._take_prompt()
+            return Answer(Kind.ACCEPTED)
+        window = self.left.unprompted(window)  # prompts of a stop, which nobody waited for
         self._take_prompt()
         if not self.manners.error_ends_line and (place := window.find("?")) >= 0:
             self.left.add(window[:place] + window[place + 1 :].replace(":", ""))
             return Answer(Kind.REFUSED)  # what stands behind it was carried out, so the frame proves nothing
         text, exact = _without_prompts(window, expected.prompts if self.manners.prompt_per_command else 0)
         whole = expected.reply == ANYTHING
-        reply, other = (text, "" if exact else text) if whole else _parted(text, expected.reply)
+        if whole and expected.count is not None and text.count("\r\n") > expected.count:
+            reply, other, exact = *_last_lines(text, expected.count), False
+        else:
+            reply, other = (text, "" if exact else text) if whole else _parted(text, expected.reply)
         self.left.add(other)
         shown = reply.replace("\r\n", "\n").rstrip("\n")
         return Answer(Kind.ACCEPTED, text=shown, certain=exact or not whole)
@@ -306,9 +339,13 @@ class Wire:
                 return Answer(Kind.REFUSED)
             return None
         self._take(len(self._buffer))
-        program = self.left.without_end(window[: match.start()])
+        program, reading = window[: match.start()], None
+        if isinstance(self._expected, Upload) and self._expected.prints:
+            reading = self.left.reading(program)
+        else:
+            program = self.left.without_end(program)
         self.left.add(text := (match["text"] if marked else "") + window[match.end() :])
-        return Answer(Kind.ACCEPTED, text=program, behind=text)
+        return Answer(Kind.ACCEPTED, text=program, behind=text, reading=reading)
 
     def _revision(self) -> Answer | None:
         window = self._window(len(self._buffer))
@@ -366,7 +403,7 @@ class Wire:
         """Drops what an answer was made of; what is marked in it is a program's text."""
         if not self.manners.answers_marked:
             marked = zip(self._buffer[:count], self._marked[:count], strict=True)
-            self.left.add("".join(chr(byte) for byte, mark in marked if mark))
+            self.left.add("".join(chr(byte) for byte, mark in marked if mark), marked=True)
         self._drop(count)
 
     def _drop(self, count: int) -> None:
@@ -375,10 +412,33 @@ class Wire:
 
     def _release(self, count: int) -> None:
         """The first bytes of the buffer are unsolicited text."""
-        if count:
+        if count and self.left.waits and not self.manners.answers_marked:
+            for marked, run in groupby(zip(self._buffer[:count], self._marked[:count], strict=True), itemgetter(1)):
+                self.left.add("".join(chr(byte) for byte, _ in run), marked=bool(marked))
+            self._drop(count)
+        elif count:
             text = bytes(self._buffer[:count]).decode("ascii")
             self._drop(count)
             self.left.add(text)
+
+
+def _dropped(expected: Expectation) -> Dropped:
+    """What may still come of an exchange that ends without its answer."""
+    if isinstance(expected, Frame):
+        return Dropped(expected.nonce, NOTHING)  # a frame shows itself
+    if isinstance(expected, Proof):
+        return Dropped(expected.nonce, expected.reply, expected.count)
+    if isinstance(expected, Upload):
+        return Dropped("", expected.reply, listing=True, known=expected.known)
+    return Dropped("")
+
+
+def _last_lines(text: str, count: int) -> tuple[str, str]:
+    """So many lines, which stand right before the prompt, and the text before them."""
+    lines = text.split("\r\n")
+    rest = lines.pop()
+    at = len(lines) - count
+    return "".join(f"{line}\r\n" for line in lines[at:]), "".join(f"{line}\r\n" for line in lines[:at]) + rest
 
 
 def _parted(text: str, reply: str) -> tuple[str, str]:

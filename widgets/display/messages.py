@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 MOST = 2000
 ICONS = {
     NoticeKind.MESSAGE: ("messages", "text"),
+    NoticeKind.UNCLEAR: ("messages", "warning"),
     NoticeKind.PROMPT: ("comment", "accent"),
     NoticeKind.FAULT: ("problem", "fault"),
     NoticeKind.LOST: ("disconnect", "fault"),

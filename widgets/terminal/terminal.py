@@ -95,7 +95,7 @@ class TerminalPanel(Panel):
             self._said(notice.text)
         elif notice.kind is NoticeKind.FAULT:
             self.write("refused", notice.text)
-        elif notice.kind in (NoticeKind.IDENTIFIED, NoticeKind.LOST, NoticeKind.CONNECTED):
+        elif notice.kind in (NoticeKind.IDENTIFIED, NoticeKind.LOST, NoticeKind.CONNECTED, NoticeKind.UNCLEAR):
             self.write("note", f"— {notice.text} —")
 
     def show_reply(self, command: str, reply: Reply) -> None:
@@ -209,7 +209,7 @@ class TerminalPanel(Panel):
         self.why.setVisible(bool(words))
 
     def _show_traffic(self, entry: Traffic) -> None:
-        if entry.source in ("poll", "stop", "download"):
+        if entry.source in ("poll", "stop", "download", "unclear"):
             self.write("poll", f"{entry.direction} {entry.text.strip()}")
 
     def _lay_out(self) -> None:
