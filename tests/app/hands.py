@@ -26,6 +26,7 @@ from app.compose import Studio
 from widgets.form.dialog import InstructionDialog
 
 PATIENCE_S = 20.0
+TURN_S = 0.005
 
 
 def until(true: Callable[[], object], what: str, patience_s: float = PATIENCE_S) -> None:
@@ -33,14 +34,15 @@ def until(true: Callable[[], object], what: str, patience_s: float = PATIENCE_S)
     end = time.monotonic() + patience_s
     while not true():
         QApplication.processEvents()
-        QTest.qWait(5)
+        QTest.qWait(round(1000 * TURN_S))
         assert time.monotonic() < end, f"waited {patience_s:g} s in vain for {what}"
 
 
 def live(seconds: float) -> None:
-    """Lets the studio live for a while."""
-    end = time.monotonic() + seconds
-    until(lambda: time.monotonic() >= end, "time to pass", seconds + 5)
+    """Lets the studio live for a while, in turns: a computer that is busy with others meanwhile takes none away."""
+    for _ in range(max(1, round(seconds / TURN_S))):
+        QApplication.processEvents()
+        QTest.qWait(round(1000 * TURN_S))
 
 
 class Hands:

@@ -97,10 +97,10 @@ def place(machine: SimulatorProcess) -> float:
 def comes_to_rest(machine: SimulatorProcess, there: float) -> None:
     """The move that was commanded ends by itself, inside its bounds."""
     end = time.monotonic() + WATCHED_S
-    while time.monotonic() < end:
+    while time.monotonic() < end or machine.state()["axes"]["X"]["moving"]:
         assert abs(place(machine) - there) <= WAY
+        assert time.monotonic() < end + PATIENCE_S, "it does not come to rest"
         time.sleep(0.02)
-    assert not machine.state()["axes"]["X"]["moving"]
 
 
 def held(controller: Controller) -> dict[str, float]:

@@ -26,6 +26,7 @@ from widgets.parts.question import Question
 
 COMMAND = "pytest tests/app/test_tuning_killed.py"
 LATEST_S = 5.0  # after the first click on Start
+WELL_AMID_S = 0.4  # after the former values came on the disk: a run takes longer
 PATIENCE_S, BEGINS_S = 60.0, count(90, 300)
 SEED = 5
 pytestmark = [NO_PTY, pytest.mark.paced, pytest.mark.timeout(count(240, 3600))]
@@ -33,18 +34,18 @@ pytestmark = [NO_PTY, pytest.mark.paced, pytest.mark.timeout(count(240, 3600))]
 
 def test_the_window_killed_at_any_moment_of_tuning(qapp: QApplication, tmp_path: Path) -> None:
     kills = count(1, 50)
-    found = [one(qapp, tmp_path / str(number), SEED + number) for number in range(kills)]
+    found = [one(qapp, tmp_path / str(number), SEED + number, number == 0) for number in range(kills)]
     assert any(found)  # some were killed in the middle
     record("windows killed while tuning, all put back by the next start", COMMAND, SEED, kills, "kills")
     record("of them in the middle of a run of the window", COMMAND, SEED, sum(found), "kills")
 
 
-def one(qapp: QApplication, folder: Path, seed: int) -> bool:
-    """One life; whether it left something to put back."""
+def one(qapp: QApplication, folder: Path, seed: int, amid: bool) -> bool:
+    """One life, ended amid a run or at any moment; whether it left something to put back."""
     folder.mkdir()
     with SimulatorProcess("ssc2", baud=BAUD, pty=True) as machine:
         set_up(machine)
-        live_and_die(machine, folder, seed)
+        live_and_die(machine, folder, seed, amid)
         stays(machine)
         left, changed = left_of(machine, folder)
         offered(qapp, machine, folder, left, changed)
@@ -54,7 +55,7 @@ def one(qapp: QApplication, folder: Path, seed: int) -> bool:
     return left
 
 
-def live_and_die(machine: SimulatorProcess, folder: Path, seed: int) -> None:
+def live_and_die(machine: SimulatorProcess, folder: Path, seed: int, amid: bool) -> None:
     words = [sys.executable, "-m", "tests.app.tuning_life", machine.address, str(BAUD), str(folder), str(seed)]
     around = {**os.environ, "PYTHONPATH": os.getcwd(), "QT_QPA_PLATFORM": "offscreen"}
     process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=around)
@@ -62,11 +63,26 @@ def live_and_die(machine: SimulatorProcess, folder: Path, seed: int) -> None:
     try:
         assert select.select([process.stdout], [], [], BEGINS_S)[0], "it did not begin"
         assert process.stdout.readline() == "ready\n"
-        time.sleep(random.Random(seed).uniform(0.1, LATEST_S))
+        if amid:
+            in_a_run(folder / "tuning", random.Random(seed).uniform(0.0, WELL_AMID_S))
+        else:
+            time.sleep(random.Random(seed).uniform(0.1, LATEST_S))
     finally:
         process.send_signal(signal.SIGKILL)
         process.wait()
         process.stdout.close()
+
+
+def in_a_run(kept: Path, later_s: float) -> None:
+    """Until what was before is on disk, and a little later still is."""
+    end = time.monotonic() + PATIENCE_S
+    while True:
+        assert time.monotonic() < end, "no run began"
+        if left_behind(kept):
+            time.sleep(later_s)
+            if left_behind(kept):
+                return
+        time.sleep(0.005)
 
 
 def left_of(machine: SimulatorProcess, folder: Path) -> tuple[bool, list[str]]:

@@ -27,6 +27,7 @@ from device.transport import LineSettings, OpenFailed, Transport, open_transport
 from device.transport.serial_port import SerialPort
 from tests.device.test_latency import NO_PTY
 from tests.long import is_long
+from tests.slower import queued_s
 
 LINE = LineSettings(baud=19200)
 pytestmark = [NO_PTY, pytest.mark.paced]
@@ -48,8 +49,8 @@ def machine(process: SimulatorProcess, monkeypatch: pytest.MonkeyPatch) -> Itera
     process.stimulus("fault", "none")
     port = open_transport(process.address, LINE)  # nothing of it stays for the next
     port.write(b"\r")
-    time.sleep(0.1)
-    port.read(0.05)
+    while port.read(0.2):
+        continue
     port.close()
 
 
@@ -241,11 +242,11 @@ def test_it_tells_how_far_it_is_and_can_be_cancelled(machine: SimulatorProcess) 
             asking.set()
 
     job = examination(machine.address, LINE, progress)
-    assert asking.wait(5.0)
-    began = time.monotonic()
+    assert asking.wait(20.0)
+    began, queued = time.monotonic(), queued_s()
     job.cancel()
     assert job.future.result(5.0).trouble is Trouble.CANCELLED
-    assert time.monotonic() - began < 1.0
+    assert time.monotonic() - began - (queued_s() - queued) < 1.0  # without what other programs took
     assert phases[:3] == [f"Opening {machine.address}", "Listening", "Asking at 19200 baud"]
 
 

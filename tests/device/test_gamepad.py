@@ -61,7 +61,7 @@ def pad() -> Iterator[tuple[Gamepad, VirtualPad]]:
 
 
 def until(true: Callable[[], object]) -> None:
-    end = time.monotonic() + 5
+    end = time.monotonic() + 20
     while not true():
         assert time.monotonic() < end
         time.sleep(0.005)

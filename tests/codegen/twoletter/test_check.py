@@ -267,9 +267,9 @@ def test_a_program_of_1000_lines_is_checked_while_typing() -> None:
     lines = ["#A", "N=0"] + [f"PR {number};SP {number * 2};BG X;AM X;N=N+{number}" for number in range(997)] + ["EN"]
     check("\n".join(lines), model("ssc4"))
     lines[500] = "PR N*2"
-    before = time.perf_counter()
+    before = time.thread_time()
     assert check("\n".join(lines), model("ssc4")) == []
-    assert time.perf_counter() - before < 1.0  # about 40 ms; the bound only catches the memo going missing
+    assert time.thread_time() - before < 1.0  # about 40 ms; the bound only catches the memo going missing
 
 
 def test_problems_are_values() -> None:

@@ -18,8 +18,8 @@ pytestmark = pytest.mark.paced
 
 def connect(address: str) -> socket.socket:
     host, _, port = address.removeprefix("socket://").rpartition(":")
-    client = socket.create_connection((host, int(port)), timeout=5)
-    client.settimeout(5)
+    client = socket.create_connection((host, int(port)), timeout=20)
+    client.settimeout(20)
     return client
 
 
@@ -99,7 +99,7 @@ def test_port_2_on_a_pseudo_terminal() -> None:
         assert until(host, b":") == b":"
         data = b""
         while not data.endswith(b"\n"):
-            assert select.select([terminal], [], [], 5)[0]
+            assert select.select([terminal], [], [], 20)[0]
             data += os.read(terminal, 100)
         os.close(terminal)
         assert data == b"HELLO\r\n"
@@ -143,7 +143,7 @@ def test_a_paced_pseudo_terminal() -> None:
             began, data = time.monotonic(), b""
             os.write(terminal, b"TPX\r")
             while not data.endswith(b"\r\n:"):
-                assert select.select([terminal], [], [], 5)[0]
+                assert select.select([terminal], [], [], 20)[0]
                 data += os.read(terminal, 100)
             late.append(time.monotonic() - began - seconds)
             assert data == b" 0000000000\r\n:"
@@ -164,7 +164,7 @@ def test_it_ends_when_its_owner_does() -> None:
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=root, text=True)
     assert process.stdout is not None
     assert process.stdout.readline().startswith("listening on 127.0.0.1:")
-    process.communicate(timeout=10)
+    process.communicate(timeout=30)
     assert process.returncode == 0
 
 
