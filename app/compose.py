@@ -86,7 +86,7 @@ class Studio(QObject):
         self.rubbish = Rubbish()
         self.recorder = recorder or Recorder(data / RECORDINGS, clock=clock, threaded=False)
         self.settings = settings
-        self.theme = Theme(application, Choice(settings.get("theme")))
+        self.theme = Theme(application, Choice(settings.get("theme")), ticking=True)
         self.session = Session(Document(setup=last_setup(data) or Setup()), recovery_folder=data / "recovery")
         self.connection = Connection(connect, Controller.offline, self)
         self.tick, self.clock = Tick(self), clock
@@ -103,7 +103,7 @@ class Studio(QObject):
         self.limits = SetupLimits(self.connection, self.session, self.tick, self.desk.ask, self)
         self.run = Run(self.connection, self.session, self.tick, self.desk.ask, self.right, self)
         self.data = data
-        self.late, self.loading = Late(self, ports), Loading()
+        self.late, self.loading = Late(self, ports), Loading(pages)
         self.run.before = lambda reason, go_on: self.late.proof.keeping.before(reason, go_on)
         self.run.before_start = self.limits.careful
         self.leaving = Leaving(self.connection, self.run, self.desk, self.files, self.tick, self.window)
@@ -139,6 +139,7 @@ class Studio(QObject):
         self._fill_window()
         self._join()
         self._attach(self.connection.controller)
+        self.tick.show_all()
         self._document_changed(None, self.session.document)
 
     def _asks_later(self) -> bool:
@@ -221,6 +222,8 @@ class Studio(QObject):
             self.tick.add(panel)
         for look in (
             self.leaving.look,
+            self.theme.look,
+            self.desk.look,
             self.ear.look,
             self.follow.look,
             self.setup.look,
@@ -318,8 +321,6 @@ class Studio(QObject):
         """Everything works with this controller from now on."""
         controller.show_listing(self.session.listing.text)
         self.tick.attach(controller)
-        for panel in self.panels:
-            panel.attach(controller)
         self.follow.look()
         settle()
 

@@ -81,6 +81,7 @@ class Desk(QObject):
         self.unsaved: UnsavedWork | None = None
         self._left: tuple[Recovered, ...] = ()
         self._help_panel: HelpPanel | None = None
+        self._page = ""  # of the help, to be opened
 
     def ask(self, title: str, words: str, answers: Answers, picture: str = "help") -> None:
         """A question that blocks nothing."""
@@ -133,24 +134,38 @@ class Desk(QObject):
         self._window.docks[title].setWindowTitle(f"{title} {count}" if count else title)
 
     def show_help(self, page: str) -> None:
-        """A help page in a window of its own."""
-        from app.help_pages import search_words
-        from widgets.help.panel import HelpPanel
+        """A help page in a window of its own; the first one comes with the tick after that window."""
+        self._page = page
+        if self.help is None:
+            self.help = self._help_window()
+            self.help.show()
+        else:
+            self.look()
 
-        if self.help is None or self._help_panel is None:
-            self.help = QDialog(self._window)
-            self.help.setWindowTitle("Help")
-            self.help.resize(880, 640)
-            self._help_panel = HelpPanel(self._pages, search_words())
-            self._help_panel.browser.setSearchPaths([str(resources.path("help"))])
-            self._help_panel.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-            self._help_panel.opened.connect(lambda _: self._fit_pictures())
-            column = QVBoxLayout(self.help)
-            column.addWidget(self._help_panel)
+    def look(self) -> None:
+        """With each tick: the page that was asked for together with the window."""
+        if not self._page or self.help is None or self._help_panel is None:
+            return
+        page, self._page = self._page, ""
         self.help.show()
         if not self._help_panel.open(page):
             self._help_panel.open("Program window")
         self.help.raise_()
+
+    def _help_window(self) -> QDialog:
+        from app.help_pages import search_words
+        from widgets.help.panel import HelpPanel
+
+        window = QDialog(self._window)
+        window.setWindowTitle("Help")
+        window.resize(880, 640)
+        self._help_panel = HelpPanel(self._pages, search_words())
+        self._help_panel.browser.setSearchPaths([str(resources.path("help"))])
+        self._help_panel.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._help_panel.opened.connect(lambda _: self._fit_pictures())
+        column = QVBoxLayout(window)
+        column.addWidget(self._help_panel)
+        return window
 
     def _fit_pictures(self) -> None:
         if self._help_panel is not None:

@@ -58,8 +58,8 @@ class Ear(Panel):
         self._heard = heard
         self.hide()
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def take(self, controller: Controller) -> None:
+        super().take(controller)
         self._heard.begin(controller)
 
     def notice(self, notice: Notice) -> None:

@@ -172,8 +172,8 @@ class Program(Panel):
         self.homed = Homed()
         display.homed_told.connect(self.homed.confirm)
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def take(self, controller: Controller) -> None:
+        super().take(controller)
         self.homed.begin(controller)
 
     def show_document(self, old: Document | None, new: Document) -> None:

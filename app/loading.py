@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterable
+from functools import partial
 from importlib import import_module
 
 from PySide6.QtCore import QTimer
@@ -22,8 +24,9 @@ MODULES = (
 class Loading:
     """Before `begin` everything is loaded by whoever uses it first."""
 
-    def __init__(self) -> None:
-        self._begun = False
+    def __init__(self, pages: Iterable[str] = ()) -> None:
+        """`pages` of the help, which read their files when they are first asked for."""
+        self._begun, self._pages = False, pages
         self._thread: threading.Thread | None = None
 
     def begin(self, after_ms: int) -> None:
@@ -40,10 +43,10 @@ class Loading:
 
     def _load(self) -> None:
         if self._thread is None:
-            self._thread = threading.Thread(target=load, name="loading", daemon=True)
+            self._thread = threading.Thread(target=partial(load, self._pages), name="loading", daemon=True)
             self._thread.start()
 
 
-def load() -> None:
-    """Every module, one after the other."""
-    beside(lambda: [import_module(name) for name in MODULES])
+def load(pages: Iterable[str] = ()) -> None:
+    """Every module, one after the other, then the help."""
+    beside(lambda: ([import_module(name) for name in MODULES], list(pages)))

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Iterator
 from enum import StrEnum
 from typing import Any
 
-from PySide6.QtCore import QObject, Qt
+import shiboken6
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt
 from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QApplication, QStyleFactory
+from PySide6.QtWidgets import QApplication, QStyleFactory, QWidget
 
 import resources
 from widgets.parts.look import PROPERTY, Look
+from widgets.parts.pieces import DRESSED, Pieces, in_breaths
+
+OWN_STYLE = Qt.WidgetAttribute.WA_SetStyle
 
 
 class Choice(StrEnum):
@@ -23,17 +28,29 @@ class Choice(StrEnum):
 
 
 class Theme(QObject):
-    """Keeps the application in the chosen colours and follows the system when told to."""
+    """Keeps the application in the chosen colours and follows the system when told to.
 
-    def __init__(self, application: QApplication, choice: Choice = Choice.SYSTEM) -> None:
+    Where `ticking`, somebody calls `look` with each tick, and what there is changes piece by piece.
+    """
+
+    def __init__(self, application: QApplication, choice: Choice = Choice.SYSTEM, ticking: bool = False) -> None:
         super().__init__()
         self._application = application
         self._table = read_table()
         self.choice = choice
+        self.making = Pieces(iter(()))
+        self._ticking = False
+        self._memory = QWidget()  # while one has a sheet of its own Qt remembers what widgets were like without
+        self._memory.setStyleSheet("QWidget {}")
         if not isinstance(application.property(PROPERTY), Look):  # once: each further style would wrap the one before
             application.setStyle(QStyleFactory.create("Fusion"))
         application.styleHints().colorSchemeChanged.connect(self._follow)
         self.choose(choice)
+        self._ticking = ticking
+
+    def look(self) -> None:
+        """With each tick: some more of what there is."""
+        self.making.step()
 
     def choose(self, choice: Choice) -> None:
         """Light, dark, or whatever the system has."""
@@ -57,14 +74,52 @@ class Theme(QObject):
         self._wear(make_look(self._table, dark))
 
     def _wear(self, wanted: Look) -> None:
-        application = self._application
-        if application.property(PROPERTY) == wanted:
+        if self._application.property(PROPERTY) == wanted:
             return
-        application.setProperty(PROPERTY, wanted)
+        self._application.setProperty(PROPERTY, wanted)
+        self.making = Pieces(self._pieces(wanted))
+        if not self._ticking:
+            self.making.finish()
+
+    def _pieces(self, wanted: Look) -> Iterator[None]:
+        """The sheet, then the widgets that there are, a few at a time: all at once takes Qt a third of a second."""
+        there = [each for each in everything() if each.testAttribute(DRESSED) and not each.testAttribute(OWN_STYLE)]
+        there.sort(key=lambda widget: not widget.isVisible())
+        yield
+        there = [each for each in there if shiboken6.isValid(each)]
+        for widget in there:  # as if none were dressed: Qt passes over those
+            widget.setAttribute(DRESSED, False)
+            widget.setAttribute(OWN_STYLE, True)
+        self._put_on(wanted)
+        for widget in there:
+            widget.setAttribute(DRESSED, True)
+            widget.setAttribute(OWN_STYLE, False)
+        yield
+        yield from in_breaths(_dressed_anew(there))
+
+    def _put_on(self, wanted: Look) -> None:
+        application = self._application
         application.setFont(wanted.body_font())
         application.setPalette(make_palette(wanted))
         application.setStyleSheet("")  # over another sheet Qt dresses each widget once for everything around it
         application.setStyleSheet(style_sheet(self._table, wanted))
+
+
+def everything() -> list[QWidget]:
+    """All widgets, window by window, what is inside after what is around it."""
+    windows = [each for each in QApplication.topLevelWidgets() if each.parentWidget() is None]
+    return [widget for window in windows for widget in (window, *window.findChildren(QWidget))]
+
+
+def _dressed_anew(widgets: list[QWidget]) -> Iterator[None]:
+    """Each for the sheet of now, as Qt does it: polished, then told."""
+    told = QEvent(QEvent.Type.StyleChange)
+    for widget in widgets:
+        if shiboken6.isValid(widget):
+            widget.style().polish(widget)
+            QCoreApplication.sendEvent(widget, told)
+            widget.update()
+        yield
 
 
 def read_table() -> dict[str, Any]:

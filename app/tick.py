@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from contextlib import AbstractContextManager, nullcontext
@@ -11,6 +12,7 @@ from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.docks import settle
 from widgets.panel import Panel
+from widgets.parts.pieces import BREATH_S
 
 if TYPE_CHECKING:
     from device.api import Controller
@@ -31,6 +33,7 @@ class Tick(QObject):
         self._writes: list[Future[Any]] = []
         self.unwritten = 0  # what could not be written
         self._controller: Controller | None = None
+        self._to_show: list[Panel] = []  # of what is seen in them not all is of this controller yet
         self._watched = NOTHING
         self.around: Callable[[], AbstractContextManager[None]] = nullcontext
         self._timer = QTimer(self)
@@ -55,9 +58,37 @@ class Tick(QObject):
         self._each.append(call)
 
     def attach(self, controller: Controller) -> None:
-        """Works with another controller from now on."""
+        """Works with another controller from now on; the panels show it one after the other."""
         self._controller = controller
         self._watched = NOTHING
+        for panel in self._panels:
+            panel.take(controller)
+        self._to_show = [panel for panel in self._panels if type(panel).show_controller is not Panel.show_controller]
+        for panel in self._to_show:
+            panel.veil()
+
+    def show_all(self) -> None:
+        """For whoever cannot wait for the ticks: every panel shows the controller there is."""
+        while self._to_show:
+            self._show(self._to_show[0])
+
+    def _show(self, panel: Panel) -> None:
+        self._to_show.remove(panel)
+        panel.show_controller()
+        panel.unveil()
+
+    def _show_next(self) -> bool:
+        """One that is in sight, else as many as take no longer than a breath; False when all do."""
+        if not self._to_show:
+            return False
+        seen = next((panel for panel in self._to_show if panel.in_sight), None)
+        if seen is not None:
+            self._show(seen)
+            return True
+        began = time.perf_counter()
+        while self._to_show and time.perf_counter() - began < BREATH_S:
+            self._show(self._to_show[0])
+        return True
 
     def when_done(self, future: Future[Any], call: Callable[[Future[Any]], None]) -> None:
         """Calls back, here in the window's own thread, once the future is finished; cancelled ones are forgotten."""
@@ -89,14 +120,15 @@ class Tick(QObject):
         for notice in controller.notices():
             for panel in self._panels:
                 panel.notice(notice)
-        shown = [panel for panel in self._panels if panel.in_sight]
+        busy = self._show_next()
+        shown = [panel for panel in self._panels if panel.in_sight and panel not in self._to_show]
         watched = frozenset(key for panel in shown for key in panel.watches())
         drawn = tuple(dict.fromkeys(key for panel in shown for key in panel.draws()))
         if (watched, drawn) != self._watched:
             self._watched = watched, drawn
             controller.watch(OWNER, sorted(watched), each_round=drawn)
         growing = next((panel for panel in shown if not panel.making.done), None)
-        if growing is not None:
+        if growing is not None and not busy:
             growing.grow()  # alone: its first look at the row comes with the next tick, and so do other panels' pieces
         row = controller.last()
         for panel in shown:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from codegen.document import Document
     from device.api import Controller, Notice, Row
 
+VEIL = 8192  # px, more than any panel has, whatever size it gets meanwhile
 NOT_READY = "The controller does not answer at the moment."
 
 
@@ -31,6 +32,7 @@ class Panel(QWidget):
         self.loaded: Callable[[], bool] = lambda: True  # whether what its pieces need can be had without waiting
         self.making = Pieces(self.pieces())
         self.making.done = type(self).pieces is Panel.pieces  # there are none
+        self._veil: QWidget | None = None
 
     def pieces(self) -> Iterator[object]:
         """What takes long to make; one piece with each tick, from the first look on."""
@@ -44,7 +46,8 @@ class Panel(QWidget):
     @property
     def in_sight(self) -> bool:
         """Whether any of it can be seen: what stands behind another tab is visible too, as Qt has it."""
-        return self.isVisible() and not self.visibleRegion().isEmpty()
+        veil = self._veil
+        return self.isVisible() and not (self if veil is None else veil).visibleRegion().isEmpty()
 
     def no_control(self, offline: str, watched: str) -> str:
         """Why nothing may be moved or set from here now, in the panel's own words; or nothing."""
@@ -58,8 +61,31 @@ class Panel(QWidget):
         return "" if controller.control else watched
 
     def attach(self, controller: Controller) -> None:
-        """Another controller (or none) is worked with from now on."""
+        """Another controller (or none) is worked with from now on, and that is seen."""
+        self.take(controller)
+        self.show_controller()
+
+    def take(self, controller: Controller) -> None:
+        """The first half, which comes at once: nothing more goes to the one before; what is shown stays."""
         self.controller = controller
+
+    def show_controller(self) -> None:
+        """The other half: what is shown is of this controller. The tick does it, one panel after the other."""
+
+    def veil(self) -> None:
+        """Nothing of it is seen, nor can be clicked, until `unveil`: it would be of the controller before."""
+        if self._veil is None:
+            self._veil = veil = QWidget(self)
+            veil.setAutoFillBackground(True)
+            veil.resize(VEIL, VEIL)
+            veil.show()
+
+    def unveil(self) -> None:
+        """It is seen again."""
+        if self._veil is not None:
+            self._veil.hide()
+            self._veil.deleteLater()
+            self._veil = None
 
     def show_document(self, old: Document | None, new: Document) -> None:
         """The program or the setup has changed."""

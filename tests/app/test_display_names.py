@@ -52,5 +52,6 @@ def test_a_refused_name_is_said_in_the_status_bar_and_more_opens_the_codes(stage
     stage.go()
     assert any("Input 5 was not renamed" in text for text in stage.studio.messages.texts())
     display.stops.more.click()
+    stage.go()
     assert desk.help is not None and desk.help.isVisible()
     assert desk._help_panel is not None and desk._help_panel.page == "Error and stop codes"

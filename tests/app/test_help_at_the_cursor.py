@@ -18,6 +18,7 @@ from widgets.help.topic import topic_of
 
 def page(stage: Stage) -> tuple[str, str]:
     """The page that is open, and the line at its top."""
+    stage.go(1)
     help = stage.studio.desk.help
     assert help is not None
     browser = help.findChildren(QTextBrowser)[0]

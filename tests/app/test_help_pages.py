@@ -71,6 +71,7 @@ def test_pictures_of_pages_are_there_and_shown(stage: Stage) -> None:
     links = {link for text in Pages().values() for link in re.findall(r"!\[[^]]*\]\(([^)]+)\)", text)}
     assert {HELP / link for link in links} == set(PICTURES)
     stage.studio.desk.show_help("Program window")
+    stage.go()
     assert stage.studio.desk.help is not None
     browser = stage.studio.desk.help.findChildren(QTextBrowser)[0]
     for link in links:
@@ -84,6 +85,7 @@ def test_pictures_of_pages_are_there_and_shown(stage: Stage) -> None:
 
 def test_help_for_something_without_a_page_is_that_of_the_program_window(stage: Stage) -> None:
     stage.studio.desk.show_help("No such page")
+    stage.go()
     assert stage.studio.desk.help is not None
     assert "Download" in stage.studio.desk.help.findChildren(QTextBrowser)[0].toPlainText()
 

@@ -121,7 +121,7 @@ def test_f1_opens_the_page_about_settings(stage: Stage) -> None:
     page.editors["theme"].setFocus()
     QApplication.processEvents()
     QTest.keyClick(page.editors["theme"], Qt.Key.Key_F1)
-    QApplication.processEvents()
+    stage.go()
     assert stage.studio.desk.help is not None and stage.studio.desk.help.isVisible()
     browser = stage.studio.desk.help.findChildren(QTextBrowser)[0]
     assert browser.toPlainText().startswith("Settings")

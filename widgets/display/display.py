@@ -76,9 +76,11 @@ class DisplayPanel(Panel):
         self.outputs.renamed.connect(partial(self._rename, "output"))
         self.stops.more_wanted.connect(partial(self.help_wanted.emit, CODES))
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def take(self, controller: Controller) -> None:
+        super().take(controller)
         self._letters, self._analog = "", ()  # nothing is asked for that this one may not have
+
+    def show_controller(self) -> None:
         self._voltages.hide()
         self._show_linked()
 

@@ -107,9 +107,11 @@ class JogPanel(Panel):
 
     # ---- what it shows
 
-    def attach(self, controller: Controller) -> None:
+    def take(self, controller: Controller) -> None:
         self.holder.let_go()
-        super().attach(controller)
+        super().take(controller)
+
+    def show_controller(self) -> None:
         self._fit()
 
     def show_document(self, old: Document | None, new: Document) -> None:

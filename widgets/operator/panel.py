@@ -26,7 +26,7 @@ from widgets.panel import Panel, set_text, set_tip, show_role
 from widgets.parts.pieces import dressed
 
 if TYPE_CHECKING:
-    from device.api import Controller, Row
+    from device.api import Row
 
 SIMULATED = "Port 2 of the simulator"
 NOWHERE = "Connect the controller's main port first: STOP goes through it."
@@ -71,8 +71,7 @@ class OperatorPanel(Panel):
         yield from dressed(pad)
         self._show_form(self.form.currentText())
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def show_controller(self) -> None:
         self._show_usable()
 
     def show_lines(self, devices: Sequence[str]) -> None:

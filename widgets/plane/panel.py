@@ -20,7 +20,7 @@ from widgets.plane.trail import Trail
 if TYPE_CHECKING:
     from codegen.document import Document
     from codegen.setup import Setup
-    from device.api import Controller, Row
+    from device.api import Row
     from widgets.parts.plot import Plot
 
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see where its axes go."
@@ -52,8 +52,7 @@ class PlanePanel(Panel):
 
     # ---- what it shows
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def show_controller(self) -> None:
         self.forget()
         self._fit_axes()
 

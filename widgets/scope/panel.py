@@ -12,7 +12,7 @@ from widgets.panel import Panel
 
 if TYPE_CHECKING:
     from codegen.document import Document
-    from device.api import Controller, Row
+    from device.api import Row
     from widgets.scope.body import Body
 
 
@@ -45,8 +45,7 @@ class ScopePanel(Panel):
         self.opened.emit()
         yield
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def show_controller(self) -> None:
         self._tell(self.body)
 
     def show_document(self, old: Document | None, new: Document) -> None:

@@ -67,9 +67,11 @@ class SimulatorPanel(Panel):
         column.addStretch(0)
         self._show()
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def take(self, controller: Controller) -> None:
+        super().take(controller)
         self._built = None
+
+    def show_controller(self) -> None:
         self._show()
 
     def show_document(self, old: Document | None, new: Document) -> None:

@@ -90,9 +90,11 @@ class TeachPanel(Panel):
 
     # ---- what it shows
 
-    def attach(self, controller: Controller) -> None:
+    def take(self, controller: Controller) -> None:
         self.ended("")
-        super().attach(controller)
+        super().take(controller)
+
+    def show_controller(self) -> None:
         self._show_usable()
 
     def show_document(self, old: Document | None, new: Document) -> None:

@@ -67,8 +67,8 @@ class TerminalPanel(Panel):
         bar.valueChanged.connect(self._scrolled)
         self._allow("Connect a controller or start the simulator first.")
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def take(self, controller: Controller) -> None:
+        super().take(controller)
         self._seen = 0
 
     def refresh(self, row: Row) -> None:

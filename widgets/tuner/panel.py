@@ -29,7 +29,7 @@ from widgets.tuner.results import Results
 if TYPE_CHECKING:
     from codegen.document import Document
     from codegen.setup import Setup
-    from device.api import Controller, Row
+    from device.api import Row
     from device.tuning.loop import Gains
     from device.tuning.metrics import Metrics
     from widgets.tuner.bode import BodePlot
@@ -86,8 +86,7 @@ class TunerPanel(Panel):
 
     # ---- what it shows
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def show_controller(self) -> None:
         self._fit()
 
     def show_document(self, old: Document | None, new: Document) -> None:

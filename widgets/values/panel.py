@@ -29,7 +29,7 @@ from widgets.parts.look import look
 from widgets.parts.wrapping import WrappingRow
 
 if TYPE_CHECKING:
-    from device.api import Controller, Row
+    from device.api import Row
     from widgets.parts.plot import Plot
 
 OFFLINE = "Nothing is connected. Connect a controller or start the simulator to see its variables and arrays."
@@ -94,8 +94,7 @@ class ValuesPanel(Panel):
 
     # ---- what it shows
 
-    def attach(self, controller: Controller) -> None:
-        super().attach(controller)
+    def show_controller(self) -> None:
         self.show_names((), ())
         self._show_usable()
 
