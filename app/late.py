@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
 from device.api import Controller, Kind
-from widgets.parts.pieces import Pieces, in_breaths
+from widgets.parts.pieces import BREATH_S, Pieces, in_breaths
 
 if TYPE_CHECKING:
     from app.at_machine import AtMachine
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from app.search import Candidate
     from widgets.panel import Panel
 
+ALL = ""  # no panel has that title: once everything is made
 COMMISSIONING, TUNING = "commissioning", "tuning"  # folders with what was there before a step, or before a run
 
 
@@ -30,6 +32,7 @@ class Late(QObject):
         super().__init__(studio)
         self._studio, self._ports = studio, ports
         self._parts: AtMachine | None = None
+        self._wish: tuple[str, Callable[[], None]] | None = None  # a panel that is not made yet, and what then
         self.making = Pieces(self._make())
 
     def _make(self) -> Iterator[None]:
@@ -43,13 +46,30 @@ class Late(QObject):
 
     def look(self) -> None:
         """With each tick: the next piece; once all are there, what they have to look at."""
-        if not self.making.step():
+        if not self._made_more():
             return
         studio = self._studio
         self.proof.look(studio.follow.known)
         self.interrupted.look()
         if "commissioning" in self.__dict__:
             self.commissioning.look()
+
+    def _made_more(self) -> bool:
+        """The next piece, some more where somebody waits for a panel; True once all are there."""
+        end = time.perf_counter() + 2 * BREATH_S
+        while not self.making.step() and self._wish is not None and time.perf_counter() < end:
+            pass
+        if self._wish is not None and (self.making.done or self._wish[0] in self._studio.window.docks):
+            (_, call), self._wish = self._wish, None
+            call()
+            return False  # the rest comes with the next tick
+        return self.making.done
+
+    def _once_made(self, title: str, call: Callable[[], None]) -> None:
+        """At once where all panels are there; else as soon as this one is, unless the person wants another one."""
+        self._wish = None if self.making.wanted() else (title, call)
+        if self._wish is None:
+            call()
 
     def close(self) -> None:
         """At the end; nothing more is made."""
@@ -136,22 +156,30 @@ class Late(QObject):
 
     def bring(self, title: str) -> None:
         """A panel that may have to be made first."""
-        self.making.finish()
-        self._studio.desk.bring(title)
+        self._once_made(title, partial(self._studio.desk.bring, title))
 
     def bring_scope(self) -> None:
         """Curves want room."""
-        self.at_machine.scope.bring(self._studio.window.docks["Scope"])
+        self._once_made("Scope", self._bring_scope)
+
+    def _bring_scope(self) -> None:
+        assert self._parts is not None
+        self._parts.scope.bring(self._studio.window.docks["Scope"])
         self._studio.desk.bring("Scope")
 
     def open_recording(self) -> None:
         """Asks which one."""
-        self.bring("Recorder")
+        self._once_made(ALL, self._open_recording)
+
+    def _open_recording(self) -> None:
+        self._studio.desk.bring("Recorder")
         self.at_machine.recorded.ask_open()
 
     def tune(self) -> None:
         """The tuner needs room: in its layout, unless it has a window of its own."""
-        self.making.finish()
+        self._once_made(ALL, self._tune)
+
+    def _tune(self) -> None:
         window = self._studio.window
         dock = window.docks["Tuner"]
         if not dock.isFloating() and window.centralWidget().isVisible():
@@ -160,5 +188,4 @@ class Late(QObject):
 
     def arrange(self, layout: str) -> None:
         """A layout with panels that may have to be made first."""
-        self.making.finish()
-        self._studio.desk.arrange(layout)
+        self._once_made(ALL, partial(self._studio.desk.arrange, layout))

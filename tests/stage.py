@@ -64,6 +64,10 @@ class WhenWanted(Pieces):
     def step(self) -> bool:
         return self.done
 
+    def wanted(self) -> bool:
+        self.finish()
+        return True
+
     def finish(self) -> None:
         if not self.done:
             self._pieces.finish()

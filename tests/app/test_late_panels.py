@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -122,3 +123,52 @@ def test_connecting_with_each_panel_in_front(stage: Stage) -> None:
         return ticks.worst
 
     assert too_long(COMMAND, connecting, bare=is_long()) == {}
+
+
+def early(folder: Path) -> dict[str, float]:
+    """A panel that is wanted in the first moment, when it is not made yet; each time in a studio of its own."""
+    worst: dict[str, float] = {}
+    for title in ("Jog", "Recorder", "Tuner"):
+        (folder / title).mkdir(parents=True)
+        stage = make_studio(folder / title)
+        ticks = Ticks(stage)
+        stage.studio.window.resize(1280, 800)
+        stage.studio.window.show()
+        QApplication.processEvents()
+        ticks.phase("window", then=2)
+        del ticks.worst["window"]
+        assert title not in stage.studio.window.docks
+        name = f"longest tick while {title} is made because somebody waits for it"
+        ticks.phase(name, partial(opened, stage, title), partial(seen, stage, title), seconds=1.5)
+        assert stage.studio.window.docks[title].isVisible()
+        worst |= ticks.worst
+        stage.clear_away()
+    return worst
+
+
+def seen(stage: Stage, title: str) -> bool:
+    """It has come in front."""
+    dock = stage.studio.window.docks.get(title)
+    return dock is not None and not dock.visibleRegion().isEmpty()
+
+
+@pytest.mark.alone
+def test_a_panel_that_is_wanted_at_once_holds_nothing_up(qapp: QApplication, tmp_path: Path) -> None:
+    load()
+    folders = iter(range(100))
+    assert too_long(COMMAND, lambda: early(tmp_path / str(next(folders))), bare=is_long()) == {}
+
+
+def test_of_two_panels_that_are_wanted_before_they_are_made_the_later_one_comes(
+    qapp: QApplication, tmp_path: Path
+) -> None:
+    stage = make_studio(tmp_path)
+    stage.studio.window.show()
+    QApplication.processEvents()
+    opened(stage, "Recorder")
+    opened(stage, "X-Y view")
+    assert "X-Y view" not in stage.studio.window.docks
+    stage.until(lambda: seen(stage, "X-Y view"))
+    stage.go(5)
+    assert seen(stage, "X-Y view") and not seen(stage, "Recorder")
+    stage.clear_away()

@@ -26,6 +26,10 @@ class Pieces:
             self.done = next(self._making, self) is self
         return self.done
 
+    def wanted(self) -> bool:
+        """Somebody waits for it: whether there is nothing left to make."""
+        return self.done
+
     def each(self) -> Iterator[None]:
         """For what is itself made in pieces, of which this is a part."""
         while not self.step():
