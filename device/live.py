@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from codegen.models import Model
@@ -32,10 +32,14 @@ class Live:
         return Shape(self.digits, self.decimals)
 
 
+AT = "at"  # a position of the same moment as the commanded one and the error: read with them, in one exchange
+TOGETHER_COLUMNS = 54  # of a line that reads all three
+TOGETHER = ("commanded", "error", AT)
 ROWS: tuple[Live, ...] = (
     Live("position", "Position", "position", "_TP{axis}", quick=True),
     Live("commanded", "Commanded position", "position", "_RP{axis}"),
     Live("error", "Position error", "position", "_TE{axis}"),
+    Live(AT, "Position beside commanded and error", "position", "_TP{axis}"),
     Live("velocity", "Velocity", "speed", "_TV{axis}", 8),
     Live("torque", "Motor command", "voltage", "_TT{axis}", 2, 4, slow=True),
     Live("auxiliary", "Auxiliary encoder", "position", "_TD{axis}"),
@@ -75,6 +79,8 @@ def columns(model: Model) -> tuple[str, ...]:
     """The keys of everything a controller of this type can tell."""
     found: list[str] = []
     for row in ROWS:
+        if row.name == AT and model.columns < TOGETHER_COLUMNS:
+            continue
         if row.per_axis:
             found += [key(row.name, axis) for axis in model.axes]
         elif not _beyond(row.name, model):
@@ -93,6 +99,21 @@ def expression(live_key: str) -> tuple[str, Shape]:
     """How a key is read: `_TPX` and its number's shape."""
     row, axis = split(live_key)
     return row.expression.format(axis=axis), row.shape
+
+
+def beside(values: Mapping[str, float]) -> dict[str, float]:
+    """The positions among what one exchange has told that stand beside an error and a commanded position."""
+    axes = (axis for name, axis in map(_parts, values) if name == "position")
+    return {
+        key(AT, axis): values[key("position", axis)]
+        for axis in axes
+        if {key("commanded", axis), key("error", axis)} <= values.keys()
+    }
+
+
+def _parts(live_key: str) -> tuple[str, str]:
+    name, _, axis = live_key.partition(".")
+    return name, axis
 
 
 def known(keys: Sequence[str], available: Sequence[str]) -> tuple[str, ...]:

@@ -6,12 +6,13 @@ all of it where a panel asked for that.
 
 from __future__ import annotations
 
+import math
 from collections import Counter, deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from device import live
-from device.ring import Ring
+from device.ring import EMPTY, Ring
 from device.tasks import NotAllowed, Send, Step, Stopped, Wait
 from device.transport import LineSettings
 from device.wire import FRAME_COLUMNS, Answer, Frame, Kind, Shape, framed
@@ -21,6 +22,9 @@ LEAST_S = 0.025  # between requests: one command takes 0.5 ms, so 2 % of the int
 IDLE_SHARE = 0.80  # of the time in which characters travel either way, while no program runs
 IDLE_LEAST_S = 0.012
 TURN = 3  # rounds of the quick values to one line of others
+SEEN_MOVING = (live.AT, "velocity")
+SOONER = 4  # times, what is seen to move has its turn
+JITTER = 2  # counts, of an axis that is held
 SLOW_S = 1.0  # period of values that change rarely
 ALWAYS = ("thread0", "thread1", "thread2", "thread3", "time")
 REFUSALS = 3  # a value refused this often is not asked again
@@ -30,18 +34,35 @@ PollSteps: TypeAlias = Generator[Step, Answer, None]
 
 
 def requests(keys: Sequence[str], columns: int) -> list[Request]:
-    """The fewest lines of at most so many columns that read these keys."""
+    """The fewest lines of at most so many columns that read these keys; what is of one moment is in one line."""
     lines: list[Request] = []
     room = 0
-    for key in keys:
-        expression, shape = live.expression(key)
-        cost = 1 + len(expression) + len(shape.format)
+    for unit in _units(keys):
+        reads = [(key, *live.expression(key)) for key in unit]
+        cost = _cost(reads, lines[-1] if lines else [])
         if not lines or cost > room:
             lines.append([])
-            room = columns - FRAME_COLUMNS
-        lines[-1].append((key, expression, shape))
+            room, cost = columns - FRAME_COLUMNS, _cost(reads, [])
+        lines[-1] += reads
         room -= cost
     return lines
+
+
+def _units(keys: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """The keys in their order; an error, and the places it is the difference of, as one."""
+    for key in keys:
+        _, axis = live.split(key)
+        whole = tuple(live.key(name, axis) for name in live.TOGETHER)
+        if key not in whole or whole[-1] not in keys:
+            yield (key,)
+        elif key == whole[-1]:
+            yield whole
+
+
+def _cost(reads: Request, line: Request) -> int:
+    """Columns that these take in a line; what is read there already takes none."""
+    there = {expression for _, expression, _ in line}
+    return sum(1 + len(text) + len(shape.format) for _, text, shape in reads if text not in there)
 
 
 def _with(wishes: dict[str, tuple[str, ...]], owner: str, keys: Iterable[str]) -> dict[str, tuple[str, ...]]:
@@ -74,6 +95,7 @@ class Poller:
         self._drawn: dict[str, tuple[str, ...]] = {}  # read in every round, because they are drawn as curves
         self._refused: Counter[str] = Counter()
         self._asked: dict[str, float] = {}  # when each value was asked for
+        self._moved: set[str] = set()  # values of axes that are not where they were a round ago
         self._always_due = 0.0
         self._answered = False
         self._cycles: deque[float] = deque(maxlen=8)
@@ -122,7 +144,7 @@ class Poller:
         if not (first and self.hurry):  # else the others have their turn with what may wait
             quick += tuple(k for k, row in rows.items() if k not in first and row.quick and not (row.slow and idle))
         others = [key for key in wanted if key not in quick and self._is_due(key, now)]
-        others.sort(key=lambda key: self._asked.get(key, 0.0))
+        others.sort(key=lambda key: (self._asked.get(key, -math.inf) - now) * (SOONER if key in self._moved else 1))
         columns = self.brief or self.columns
         self._rounds += 1
         more = 0 if quick and self._rounds % TURN else 1
@@ -140,7 +162,7 @@ class Poller:
 
     def _one(self, request: Request) -> PollSteps:
         nonce = next(self._nonces)
-        reads = [(expression, shape) for _, expression, shape in request]
+        reads = list(dict.fromkeys((expression, shape) for _, expression, shape in request))
         shapes = tuple(shape for _, shape in reads)
         text = framed(nonce, reads)
         start = self._clock()
@@ -156,7 +178,9 @@ class Poller:
         now = self._clock()
         if answer.kind is Kind.VALUES:
             self._answered = True
-            values = {key: value for (key, _, _), value in zip(request, answer.values, strict=True)}
+            came = dict(zip((expression for expression, _ in reads), answer.values, strict=True))
+            values = {key: came[expression] for key, expression, _ in request}
+            self._look_who_moved(values)
             self.ring.write(values, now, keep=self.wanted() + ALWAYS)
             self._read(values, start)
         elif answer.kind is Kind.UNCERTAIN and "?" in answer.text:
@@ -165,6 +189,14 @@ class Poller:
         yield from self._rest(self._pause(out, back, self._clock() - start))
         travelled = (out + back) * self._line.byte_s
         self.line_share += (travelled / max(self._clock() - start, travelled, 1e-6) - self.line_share) / 8
+
+    def _look_who_moved(self, values: dict[str, float]) -> None:
+        last = self.ring.last() if self.ring.columns else EMPTY
+        for key, value in values.items():
+            row, axis = live.split(key)
+            if row.name == "position":
+                moved = abs(value - last.value(key)) > JITTER
+                (self._moved.update if moved else self._moved.difference_update)(live.key(n, axis) for n in SEEN_MOVING)
 
     def _pause(self, out: int, back: int, took: float) -> float:
         """Seconds to leave the line to others after an exchange of so many characters."""

@@ -135,7 +135,7 @@ class Heard:
 
     def _values(self, values: Mapping[str, float]) -> None:
         poller, now = self._c.poller, self._at
-        poller.ring.write(values, now)
+        poller.ring.write({**live.beside(values), **values}, now)
         first = next(iter(values))
         if first == self._quick and now > self._last:
             period = now - self._last
@@ -245,8 +245,9 @@ def expected_of(line: bytes) -> tuple[Expectation | None, tuple[str, ...]]:
 
 def _keys() -> dict[str, str]:
     """The key of each expression that live values are read with."""
-    axes = {row.expression.format(axis=axis): live.key(row.name, axis) for row in live.ROWS for axis in "XYZW"}
-    return {**axes, **{row.expression: row.name for row in live.ROWS if not row.per_axis}}
+    rows = [row for row in live.ROWS if row.name != live.AT]
+    axes = {row.expression.format(axis=axis): live.key(row.name, axis) for row in rows for axis in "XYZW"}
+    return {**axes, **{row.expression: row.name for row in rows if not row.per_axis}}
 
 
 KEYS = _keys()

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QPushButto
 
 from codegen.setup import setup_problems
 from device.api import Kind, State
+from device.live import AT
 from widgets.display.analog import Voltages
 from widgets.display.levels import Levels
 from widgets.display.position import AxisReadout
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from codegen.setup import Setup
     from device.api import Controller, Row
 
-AXIS_VALUES = ("position", "commanded", "error", "velocity", "switches", "stop_code", "latch")
+AXIS_VALUES = ("position", "commanded", "error", AT, "velocity", "switches", "stop_code", "latch")
 CODES = "Error and stop codes"  # the help page
 LAMP = 24  # px; inputs are read, not clicked
 EMPTY = "Nothing is connected. Connect a controller or start the simulator to see positions, inputs and outputs here."

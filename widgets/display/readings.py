@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from codegen.numbers import parse_number
 from device.bits import ERROR, FORWARD, HOME, LATCH, MOTOR, MOVING, REVERSE
+from device.live import AT
 from widgets.display.analog import volts_words
 from widgets.display.position import AxisShown
 from widgets.parts.axis_bar import Marks
@@ -109,13 +110,13 @@ def fault_of(switches: Switches, stop_code: float) -> str:
 def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
     """Everything the position read-out shows of one axis."""
     low = letter.lower()
-    position = row.value(f"position.{low}")
+    place = place_of(row, low)
     switches = switches_of(row, letter, now)
     known = switches if not switches.stale else Switches()  # an old "stopped" may be false by now
     unit = unit_of(axis)
     error = row.value(f"error.{low}")
     return AxisShown(
-        position=shown(position, axis),
+        position=shown(row.value(place), axis),
         unit=unit,
         commanded=shown(row.value(f"commanded.{low}"), axis),
         error=NOTHING if not math.isfinite(error) else f"{shown(error, axis)} {unit}",
@@ -123,9 +124,14 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
         moving=known.moving,
         motor_on=known.motor_on,
         fault="" if switches.stale else fault_of(switches, row.value(f"stop_code.{low}")),
-        age=age_of(row, f"position.{low}", now),
+        age=age_of(row, place, now),
         marks=marks_of(row, letter, axis),
     )
+
+
+def place_of(row: Row, low: str) -> str:
+    """The position of the same exchange as error and commanded position, where the controller's lines have room."""
+    return f"{AT}.{low}" if row.has(f"{AT}.{low}") else f"position.{low}"
 
 
 def unit_of(axis: Axis) -> str:
@@ -176,7 +182,7 @@ def marks_of(row: Row, letter: str, axis: Axis) -> Marks:
     return Marks(
         limit_of(axis.reverse_limit),
         limit_of(axis.forward_limit),
-        row.value(f"position.{low}") / scale,
+        row.value(place_of(row, low)) / scale,
         row.value(f"commanded.{low}") / scale,
         latch=latch / scale if latch else math.nan,
         unit=unit_of(axis),
