@@ -16,7 +16,9 @@ from PySide6.QtWidgets import QApplication
 from app import checking
 from app.checking import Checked
 from codegen.models import Model
-from tests.long import record
+from tests.app.pauses import queued_ms
+from tests.long import is_long, record
+from tests.slower import slower
 from tests.stage import Stage, make_studio
 from widgets.editor.window import EditorWindow
 
@@ -184,13 +186,13 @@ def test_a_download_waits_for_the_check_of_exactly_this_text(stage: Stage, monke
 
 
 def gaps(stage: Stage, until: Callable[[], bool]) -> float:
-    """The longest time in ms in which nothing else had its turn."""
-    longest, last = 0.0, time.perf_counter()
+    """The longest time in ms in which nothing else had its turn, without what other programs took."""
+    longest, last = 0.0, 1000 * time.perf_counter() - queued_ms()
     while not until():
         stage.go()
-        now = time.perf_counter()
+        now = 1000 * time.perf_counter() - queued_ms()
         longest, last = max(longest, now - last), now
-    return 1000 * longest
+    return longest
 
 
 @pytest.mark.alone
@@ -217,4 +219,4 @@ def test_a_thousand_lines_are_checked_beside_the_window(stage: Stage) -> None:
     assert len(text.problems) > 0 and window(stage).list.count() == len(text.problems)
     usual = statistics.median(beside - calm for calm, beside in tries)
     record("code check of 1000 lines: gap", "python -m pytest tests/app/test_editor.py --long", None, usual, "ms")
-    assert usual < 50, tries
+    assert usual < 50 * (1.0 if is_long() else slower()), tries

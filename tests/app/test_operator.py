@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from device.api import Kind
 from device.second_port import LINE, SecondPort
 from device.simulator.process import SimulatorProcess
 from device.transport import open_transport
+from tests.app.hands import PATIENCE_S, live
 from tests.stage import Stage, make_studio
 from widgets.operator.panel import NOWHERE, SIMULATED, WATCHED
 
@@ -44,14 +45,20 @@ def stage(qapp: QApplication, tmp_path: Path) -> Stage:
     made.clear_away()
 
 
-def plug(stage: Stage) -> None:
-    """The panel's own button; the line opens beside the window's thread."""
-    stage.go()
-    QTest.mouseClick(stage.studio.at_machine.keys.connect_button, Qt.MouseButton.LeftButton)
-    end = time.monotonic() + 10
-    while not stage.studio.at_machine.keys._open:
-        assert time.monotonic() < end
+def wait(stage: Stage, true: Callable[[], object]) -> None:
+    """For a thread: true time passes, and some on the stage."""
+    end = time.monotonic() + PATIENCE_S
+    while not true():
+        assert time.monotonic() < end, "waited in vain"
         stage.go(1)
+        time.sleep(0.005)
+
+
+def plug(stage: Stage) -> None:
+    """The panel's own button; lines are listed, and one is opened, beside the window's thread."""
+    wait(stage, stage.studio.at_machine.keys.connect_button.isEnabled)
+    QTest.mouseClick(stage.studio.at_machine.keys.connect_button, Qt.MouseButton.LeftButton)
+    wait(stage, lambda: stage.studio.at_machine.keys._open)
 
 
 def position(stage: Stage, axis: str) -> float:
@@ -128,8 +135,8 @@ def test_the_bells_can_be_told_apart(stage: Stage, monkeypatch: pytest.MonkeyPat
     assert not beeps  # they are seen; heard only where that is wanted
     QTest.mouseClick(keys.sounds, Qt.MouseButton.LeftButton, pos=QPoint(8, keys.sounds.height() // 2))
     rig.type('MG{P2}{^27},"L"{N}')
-    stage.go(10)
-    QTest.qWait(400)
+    wait(stage, lambda: len(beeps) == 2)
+    live(0.4)
     assert len(beeps) == 2
 
 
@@ -154,16 +161,18 @@ def test_without_control_or_controller_no_key_is_sent(stage: Stage) -> None:
 
 def test_a_machine_offers_other_devices_than_its_own(stage: Stage) -> None:
     stage.connect("machine", "ssc1")
-    stage.go(90)
-    offered = [
-        stage.studio.at_machine.keys.line.itemText(index) for index in range(stage.studio.at_machine.keys.line.count())
-    ]
-    assert offered == ["/dev/ttyUSB0"] and SIMULATED not in offered
+    line = stage.studio.at_machine.keys.line
+
+    def offered() -> list[str]:
+        return [line.itemText(index) for index in range(line.count())]
+
+    wait(stage, lambda: "/dev/ttyUSB0" in offered())
+    assert offered() == ["/dev/ttyUSB0"] and SIMULATED not in offered()
 
 
 def test_a_port_that_does_not_open_is_a_sentence() -> None:
     port = SecondPort(partial(open_transport, "/dev/no-such-port", LINE))
-    end = time.monotonic() + 10
+    end = time.monotonic() + PATIENCE_S
     while not port.failed:
         assert time.monotonic() < end
         port.pump()
@@ -174,7 +183,7 @@ def test_a_port_that_does_not_open_is_a_sentence() -> None:
 def test_a_second_port_over_a_real_line() -> None:
     with SimulatorProcess("ssc1", port2="127.0.0.1:0") as process:
         first, second = (SecondPort(partial(open_transport, at, LINE)) for at in (process.address, process.address2))
-        end, heard, asked = time.monotonic() + 20, b"", False
+        end, heard, asked = time.monotonic() + PATIENCE_S, b"", False
         while b"HELLO" not in heard:
             assert time.monotonic() < end
             first.pump()
@@ -191,6 +200,7 @@ def test_devices_are_listed_when_it_is_shown_and_never_with_the_simulator(stage:
     asked: list[str] = []
     operator = stage.studio.at_machine.operator
     listed = operator._ports
+    wait(stage, lambda: operator._listing is None)  # as it was shown without any controller
 
     def ports() -> Sequence[Candidate]:
         asked.append(threading.current_thread().name)
@@ -199,20 +209,16 @@ def test_devices_are_listed_when_it_is_shown_and_never_with_the_simulator(stage:
     operator._ports = ports
     stage.connect("simulator")
     stage.studio.desk.bring("Operator terminal")
+    stage.until(lambda: stage.studio.at_machine.keys.line.count())
     stage.go(150)
     assert not asked and stage.studio.at_machine.keys.line.itemText(0) == SIMULATED
     stage.connect("machine")
-    for _ in range(200):
-        stage.go(1)
-        if stage.studio.at_machine.keys.line.findText("/dev/ttyUSB7") >= 0:
-            break
-        time.sleep(0.005)
+    wait(stage, lambda: stage.studio.at_machine.keys.line.findText("/dev/ttyUSB7") >= 0)
     stage.go(150)
     assert asked == ["ports"] and stage.studio.at_machine.keys.line.findText(SIMULATED) < 0  # once, beside the window
     stage.studio.window.docks["Operator terminal"].hide()
     stage.go(5)
     stage.studio.desk.bring("Operator terminal")
-    stage.go(5)
-    time.sleep(0.05)
+    wait(stage, lambda: len(asked) == 2)
     stage.go(150)
     assert len(asked) == 2

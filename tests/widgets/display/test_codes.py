@@ -14,6 +14,7 @@ from app.theme import Choice, Theme
 from codegen.document import Document
 from codegen.setup import Axis, Setup, Unit
 from device.api import Kind
+from tests.app.hands import live
 from tests.rig import Rig
 from tests.widgets.display.test_display import Bench, row_of
 from widgets.display.analog import volts_words
@@ -161,7 +162,7 @@ def test_analog_inputs_in_volts_where_the_model_has_them(bench: Bench) -> None:
     rig = bench.rig
     rig.simulation.stimulus("an2", 2.5)
     bench.panel.resize(380, 1600)  # all in sight: what is out of sight is not read
-    QTest.qWait(20)
+    live(0.02)
     assert "analog7" in bench.panel.watches() and "analog8" not in bench.panel.watches()
     text = said(bench, *(f"analog{number}" for number in range(1, 8)))
     found = next(line for line in text.splitlines() if line.startswith("analog input 2,"))
@@ -177,11 +178,11 @@ def test_analog_inputs_in_volts_where_the_model_has_them(bench: Bench) -> None:
 
 def test_voltages_out_of_sight_cost_no_line_time(bench: Bench) -> None:
     bench.panel.resize(380, 1600)
-    QTest.qWait(20)
+    live(0.02)
     whole = set(bench.panel.watches())
     assert {"torque.x", "torque.y", "analog1"} <= whole
     bench.panel.resize(380, 300)
-    QTest.qWait(20)
+    live(0.02)
     assert whole - set(bench.panel.watches()) == {"torque.x", "torque.y", *(f"analog{n}" for n in range(1, 8))}
 
 
