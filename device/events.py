@@ -140,6 +140,7 @@ class EventList:
         self._file = file
         self._events = {event.number: event for event in file.load()} if file is not None else {}
         self.problem = ""  # why the last one was not kept
+        self.changes = 0  # how often something was added or completed
 
     def __len__(self) -> int:
         return len(self._events)
@@ -172,11 +173,12 @@ class EventList:
             if event.at >= since
             and (not wanted or event.what in wanted)
             and (not axis or event.axis == axis)
-            and event.holds(words)
+            and (not words or event.holds(words))
         ]
 
     def _keep(self, event: Event) -> Event:
         self._events[event.number] = event
+        self.changes += 1
         if self._file is not None:
             try:
                 self._file.add(event)

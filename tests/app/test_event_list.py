@@ -13,9 +13,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTextBrowser
 
 from app.help_pages import Pages
-from device.events import What
+from device.events import Event, What
 from tests.stage import Stage, make_studio
-from widgets.events.panel import EMPTY, HELP_PAGES, NO_HIT
+from widgets.events.panel import COLUMNS, EMPTY, HELP_PAGES, MOST, NO_HIT
 from widgets.help.topic import topic_of
 
 
@@ -155,3 +155,29 @@ def test_each_event_has_its_help(stage: Stage) -> None:
     stage.go()
     assert stage.studio.desk.help is not None
     assert "The controller does not answer" in stage.studio.desk.help.findChild(QTextBrowser).toPlainText()
+
+
+def test_one_more_event_leaves_the_rows_alone_that_stand_there(stage: Stage) -> None:
+    """A thousand rows come in a few ticks; what is new comes in above them, and the selected event stays so."""
+    panel, events = stage.studio.at_machine.event_list, stage.studio.at_machine.happened.events
+    for number in range(MOST):
+        events.add(Event(0, float(number), What.LIMIT, f"limit number {number}", axis="X"))
+    stage.until(lambda: panel.table.rowCount() == MOST)
+    panel.table.setCurrentCell(3, 0)
+    chosen, changed, new = panel.rows[3], 0, 0
+
+    def count(*_: object) -> None:
+        nonlocal changed
+        changed += 1
+
+    panel.table.model().dataChanged.connect(count)
+    for number in (MOST, MOST + 1):
+        new = events.add(Event(0, float(number), What.FAULT, f"fault number {number}")).number
+        stage.go(2)
+    events.complete(new, cause="a wire")
+    stage.go(2)
+    assert 0 < changed <= 3 * 3 * len(COLUMNS)  # text, tool tip and icon of three rows
+    assert panel.rows[panel.table.currentRow()] is chosen
+    texts = [panel.table.item(row, 3).text() for row in range(MOST)]
+    assert texts == [event.text for event in events.search()[:MOST]]
+    assert panel.table.item(0, 4).text() == "a wire"

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 COLUMNS = ("Time", "What", "Where", "What happened", "Cause", "What to do next")
 ALL = "Everything"
 MOST = 1000  # rows shown; the search looks at all
+AT_ONCE = 60  # rows that are made in one turn
 SEARCH = 120  # px, its least width
 EMPTY = "Nothing has happened yet. Faults, limits, program errors, resets, STOP, downloads and burns appear here."
 NO_HIT = "No event has these words."
@@ -73,7 +74,8 @@ class EventsPanel(Panel):
         self.search, self.kind = QLineEdit(), QComboBox()
         self.bundle, self.words_, self.more = QPushButton("Service bundle…"), QLabel(EMPTY), QPushButton("More help")
         self.table = QTableWidget(0, len(COLUMNS))
-        self.rows: tuple[Event, ...] = ()
+        self.rows: tuple[Event, ...] = ()  # those in the table
+        self._found: tuple[Event, ...] = ()  # those that are to be there, by and by
         self._lay_out()
         self.bundle.clicked.connect(self.bundle_wanted)
         self.more.clicked.connect(lambda: self.help_wanted.emit(self.help_page()))
@@ -89,10 +91,12 @@ class EventsPanel(Panel):
 
     def show_document(self, old: Document | None, new: Document) -> None:
         if old is None or old.setup is not new.setup:
-            self._setup, self._told = new.setup, ()
+            self._setup, self._told, self.rows = new.setup, (), ()  # places are told in its units
 
     def refresh(self, row: Row) -> None:
         self._fill_when_changed()
+        if len(self.rows) < len(self._found):
+            self._show_some()
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -111,8 +115,7 @@ class EventsPanel(Panel):
     def _fill_when_changed(self) -> None:
         if self._events is None:
             return
-        newest = self._events.all()[-1:]
-        told = (len(self._events), newest[0] if newest else None, self._events.problem)
+        told = (self._events.changes, self._events.problem)
         if told != self._told:
             self._told = told
             self._fill()
@@ -122,13 +125,33 @@ class EventsPanel(Panel):
             return
         chosen = self.kind.currentData()
         found = self._events.search(self.search.text(), (chosen,) if chosen is not None else ())
-        self.rows = tuple(found[:MOST])
-        self.table.setRowCount(len(self.rows))
-        for number, event in enumerate(self.rows):
-            self._show(number, event)
+        self._found = tuple(found[:MOST])
+        self._make_room()
+        self._show_some()
         count = f"{len(found)} of {len(self._events)} events" if len(found) < len(self._events) else ""
         words = self._events.problem or ((EMPTY if not len(self._events) else NO_HIT) if not found else count)
         set_text(self.words_, words)
+
+    def _make_room(self) -> None:
+        """New events come in above those that stand there already, which stay as they are, with their selection."""
+        top = self.rows[0].number if self.rows else 0
+        new = next((at for at, event in enumerate(self._found) if event.number == top), 0)
+        if new > AT_ONCE:
+            self.rows, new = (), 0
+        for row in range(new):
+            self.table.insertRow(row)
+            self._show(row, self._found[row])
+        self.rows = (*self._found[:new], *self.rows)
+
+    def _show_some(self) -> None:
+        """Rows that are not right yet, so many at once: a long list comes in a few ticks."""
+        wrong = [at for at, event in enumerate(self._found) if at >= len(self.rows) or self.rows[at] is not event]
+        now = wrong[:AT_ONCE]
+        right = wrong[AT_ONCE] if len(wrong) > AT_ONCE else len(self._found)
+        self.table.setRowCount(right)
+        for row in now:
+            self._show(row, self._found[row])
+        self.rows = self._found[:right]
 
     def _show(self, row: int, event: Event) -> None:
         stamp = time.strftime("%d %b %H:%M:%S", self._local(event.at))
