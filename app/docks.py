@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QGraphicsView, QVBoxLayout, QWidget
 
 from device.api import Kind, StopState
 from widgets.parts.kind import KindFrame
 from widgets.parts.stop_button import StopButton
+from widgets.parts.turns import Turns
 
 NESTED = 6  # what is laid out anew asks what is around it to be, and so on
 
@@ -84,6 +85,7 @@ class Dock(QDockWidget):
         around.hold(self._framed(content, around) if moves else content)
         self.topLevelChanged.connect(self._floats)
         self._no_title = QWidget()
+        self._turns = Turns(self)
 
     def show_state(self, kind: Kind, state: StopState) -> None:
         """What is connected, and what has become of the last stop."""
@@ -92,11 +94,13 @@ class Dock(QDockWidget):
             self.stop_button.show_state(kind, state)
 
     def bring(self) -> None:
-        """Shown, in front, with the focus in it."""
+        """Shown, in front, with the focus in it; diagrams beside it that get another size are painted in turn."""
+        before = {each: each.size() for each in self.window().findChildren(QGraphicsView) if each.isVisible()}
         self.show()
         self.raise_()
         self.brought.emit()
         settle()
+        self._turns.bring(each for each, size in before.items() if each.isVisible() and each.size() != size)
         self.content.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _framed(self, content: QWidget, around: QWidget) -> QWidget:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QGraphicsView
 
 from app.loading import load
 from device.api import State
@@ -172,3 +172,25 @@ def test_of_two_panels_that_are_wanted_before_they_are_made_the_later_one_comes(
     stage.go(5)
     assert seen(stage, "X-Y view") and not seen(stage, "Recorder")
     stage.clear_away()
+
+
+def test_diagrams_that_a_panel_makes_smaller_are_painted_in_turn(stage: Stage) -> None:
+    load()
+    stage.studio.window.resize(1280, 800)
+    stage.studio.window.show()
+    stage.connect("simulator", "ssc2")
+    opened(stage, "Tuner")
+    panel = stage.studio.at_machine.tuning.panel
+    stage.until(lambda: panel.bode_plot is not None)
+    stage.go(10)
+    before = {each: each.size() for each in stage.studio.window.findChildren(QGraphicsView) if each.isVisible()}
+    opened(stage, "Variables")
+    smaller = [each for each, size in before.items() if each.size() != size]
+    assert len(smaller) > 1
+    assert not any(each.updatesEnabled() for each in smaller)
+    left = []
+    while waiting := [each for each in smaller if not each.updatesEnabled()]:
+        left.append(len(waiting))
+        assert len(left) < 1000
+        QApplication.processEvents()
+    assert set(left) == set(range(1, len(smaller) + 1))  # one after the other
