@@ -146,6 +146,7 @@ def test_f1_opens_the_page_of_the_panel_that_has_the_focus(stage: Stage) -> None
         focus = next(widget for widget in controls(dock) if widget.focusPolicy() & Qt.FocusPolicy.TabFocus)
         assert topic_of(focus) == title
         stage.studio.desk.show_help(topic_of(focus) or "")
+        stage.go(1)
         assert stage.studio.desk.help is not None
         assert title in stage.studio.desk.help.findChildren(QTextBrowser)[0].toPlainText()
 
