@@ -342,6 +342,7 @@ def _dialogs(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     desk.show_upload("#A\nPR 6370\nBG X\nEN\n")
     yield "upload", desk.upload
     desk.show_help("Program window")
+    stage.go(1)
     yield "help", desk.help
     yield "crash", CrashDialog("Python 3.11 on Linux\n\nTraceback …\nValueError: example", Path("crash.txt"))
     studio.window.docks["Display"].setFloating(True)
