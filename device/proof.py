@@ -14,7 +14,8 @@ from device.undecided import ANYTHING, NOTHING
 from device.wire import Answer, Proof, framed
 
 PROOF = re.compile(r";MG\{\^30\},\"..\",\{\^31\}$|^MG\{\^30\},\"..\",\{\^31\};(?=DL$)")
-TELLING = LISTS | {"MG", "BS"} | {row.name for row in COMMANDS.values() if row.tells}
+SEVERAL = LISTS | {"BS"}  # tell as many lines as there is something to say
+TELLING = SEVERAL | {"MG"} | {row.name for row in COMMANDS.values() if row.tells}
 
 
 def proved(
@@ -41,7 +42,7 @@ def lines_told(statements: Sequence[nodes.Statement]) -> int | None:
     telling = [statement for statement in statements if tells(statement)]
     if any(not isinstance(each, nodes.Command | nodes.Print) for each in telling):
         return None
-    if any(isinstance(each, nodes.Command) and (each.name in LISTS or _freely(each)) for each in telling):
+    if any(isinstance(each, nodes.Command) and (each.name in SEVERAL or _freely(each)) for each in telling):
         return None
     return len(telling)
 
