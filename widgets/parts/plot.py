@@ -44,6 +44,7 @@ class Grid(pyqtgraph.GraphicsObject):  # type: ignore[misc]
         self._plot = plot
         self.setZValue(-1000)
         self.colour = QColor()
+        self.upward: list[float] | None = None  # where lines go across; None: at the large ticks
         self._asked: tuple[object, ...] = ()
         self._lines: list[QLineF] = []
 
@@ -60,11 +61,13 @@ class Grid(pyqtgraph.GraphicsObject):  # type: ignore[misc]
         pen = QPen(self.colour, 0)
         pen.setCosmetic(True)
         painter.setPen(pen)
-        asked = (left, right, low, high, box.width(), box.height())
+        asked = (left, right, low, high, box.width(), box.height(), self.upward)
         if asked != self._asked:
             self._asked = asked
             across = _large_ticks(self._plot.getAxis("bottom"), left, right, box.width())
-            upward = _large_ticks(self._plot.getAxis("left"), low, high, box.height())
+            upward = self.upward
+            if upward is None:
+                upward = _large_ticks(self._plot.getAxis("left"), low, high, box.height())
             self._lines = [QLineF(x, low, x, high) for x in across] + [QLineF(left, y, right, y) for y in upward]
         painter.drawLines(self._lines)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
@@ -20,7 +20,8 @@ from widgets.scope.bar import Bar, View
 from widgets.scope.chart import Chart
 from widgets.scope.choices import Choices
 from widgets.scope.kept import Kept
-from widgets.scope.readings import Readings, apart_words
+from widgets.scope.readings import Column, Readings, apart_words
+from widgets.scope.timings import Level, Timings
 from widgets.scope.views import Picture, Views
 
 if TYPE_CHECKING:
@@ -80,12 +81,19 @@ class Body(QWidget):
             self.choices.show_machine(self._model, self._setup)
         self.choices.setUpdatesEnabled(True)
         yield
-        self.chart = Chart(self)
-        self.chart.hide()
-        self._middle.insertWidget(0, self.chart, 1)
-        self.readings = Readings(self)
+        self.room = QScrollArea(self)  # strips keep a height in which they can be read, also in a low dock
+        self.room.setWidgetResizable(True)
+        self.room.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.room.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.room.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.room.hide()
+        self.chart = Chart(self.room.viewport())
+        self.room.setWidget(self.chart)
+        self._middle.insertWidget(0, self.room, 1)
+        self.readings, self.timings = Readings(self), Timings(self)
         self.readings.show_columns([], None, (0.0, 1.0))
         self._beside.addWidget(self.readings, 1)
+        self._beside.addWidget(self.timings, 1)
         yield
         self.kept = Kept(self.side)
         self.side.addTab(self.kept, "Captures")
@@ -132,7 +140,7 @@ class Body(QWidget):
             picture = self._picture(capture)
             if self.chart.begin(picture.lines, picture.bottom, picture.equal):
                 self.empty.hide()
-                self.chart.show()
+                self.room.show()
 
     def show_result(self, words: str, good: bool = True) -> None:
         """The capture has ended."""
@@ -199,11 +207,11 @@ class Body(QWidget):
         self.bar.show_view(self.bar.view, live)
         nothing = capture is None and not live
         self.empty.setVisible(nothing)
-        self.chart.setVisible(not nothing)
+        self.room.setVisible(not nothing)
         self.bar.can_save(capture is not None or live)
         if nothing:
             self.picture = None
-            self.readings.show_columns([], None, (0.0, 1.0))
+            self._show_readings([], [], None, (0.0, 1.0))
             return
         picture = self.picture = self._live_picture() if live else self._picture(capture)
         fresh = self.chart.show_lines(
@@ -257,9 +265,18 @@ class Body(QWidget):
         low, high = sorted(cursors) if cursors is not None else self.chart.range
         if view is View.PLANE:
             low, high = -math.inf, math.inf
-        self.readings.show_columns(self.picture.columns(low, high), cursors, (low, high))
+        self._show_readings(self.picture.columns(low, high), self.picture.levels(low, high), cursors, (low, high))
         held = HELD if self._roll is not None and not self._following and view is View.TIME else ""
         set_text(self.between, "\n".join(filter(None, (apart_words(cursors, view is View.SPECTRUM), held))))
+
+    def _show_readings(
+        self, columns: Sequence[Column], levels: Sequence[Level], cursors: Sequence[float] | None,
+        shown: tuple[float, float],
+    ) -> None:  # fmt: skip
+        """Those of curves, and below them those of tracks."""
+        self.readings.setVisible(bool(columns) or not levels)
+        self.readings.show_columns(columns, cursors, shown)
+        self.timings.show_levels(levels, cursors, shown)
 
     def _toggle_cursors(self, on: bool) -> None:
         """Cursors stand at moments: a live picture is held for them."""

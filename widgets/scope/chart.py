@@ -3,121 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from html import escape
 from typing import Any
 
-import numpy as np
 import pyqtgraph
-from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPalette, QPixmap, QResizeEvent
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from widgets.parts.look import look
-from widgets.parts.plot import Plot
 from widgets.parts.turns import Turns
-from widgets.scope.curve import DrawnCurve
+from widgets.scope.lanes import NO_LIMIT
+from widgets.scope.strip import Line, Strip
 
-FEW = 2500  # points of a curve that are drawn smooth; more are drawn quickly
 FEW_TOGETHER = 5000  # of all curves
-WAY = 60  # heights of the picture that a smooth curve may go up and down
-NAMED = 20  # px above the curves for their names
-TITLED = 110  # px of height from which on a strip has titles at its sides
-FADED = 90  # opacity of an overlaid curve, of 255
 NAMES = ("A", "B")
+SIDE = 0.35  # of the width, for names of tracks at the most
+NO_BREAK = "\N{NO-BREAK SPACE}"
 SPARE = 3  # strips that are made before they are needed
-
-
-@dataclass(frozen=True, eq=False)
-class Line:
-    """One curve as it is drawn: `group` chooses its strip."""
-
-    label: str
-    unit: str
-    group: str
-    colour: QColor
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
-    dashed: bool = False
-    faded: bool = False
-
-
-class Strip(Plot):
-    """One scale of the picture; what is done to its time is done to all."""
-
-    def __init__(self, chart: Chart) -> None:
-        self._chart = chart
-        super().__init__("Curves", parent=chart)
-        self.legend = QLabel(self)
-        self.legend.setTextFormat(Qt.TextFormat.RichText)
-        self.legend.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.legend.setAutoFillBackground(True)
-        self.items: list[DrawnCurve] = []
-        self._pens: list[tuple[Any, ...]] = []
-        self.setMinimumHeight(60)
-
-    def fit(self) -> None:
-        self._chart.fit()
-        self.fitted.emit()
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Where it is low, the numbers have the room of the titles; the names in their colours stay."""
-        super().resizeEvent(event)
-        if hasattr(self, "actions_"):  # not while it is being made
-            self.show_titles()
-
-    def show_titles(self) -> None:
-        """The one at the side only where it is not cut; above the curves the names have room of their own."""
-        side = self.getAxis("left").label.boundingRect().width() + 2 * NAMED
-        high = self.height() >= max(TITLED, side)
-        self.getPlotItem().layout.setContentsMargins(1, NAMED if self.height() >= TITLED else 1, 1, 1)
-        self.getAxis("left").showLabel(high and bool(self.getAxis("left").labelText))
-        self.getAxis("bottom").showLabel(self.height() >= TITLED and bool(self.getAxis("bottom").labelText))
-
-    def fit_own(self) -> None:
-        """This strip alone."""
-        super().fit()
-
-    def picture(self) -> QPixmap:
-        return self._chart.grab()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if not self._chart.key(event):
-            super().keyPressEvent(event)
-
-    def show_lines(self, lines: Sequence[Line], few: bool = True) -> None:
-        """Draws these and no others; what has not changed its looks is only given its values."""
-        while len(self.items) > len(lines):
-            self.removeItem(self.items.pop())
-            self._pens.pop()
-        while len(self.items) < len(lines):
-            self.items.append(DrawnCurve())
-            self.addItem(self.items[-1])
-            self._pens.append(())
-        for place, (item, line) in enumerate(zip(self.items, lines, strict=True)):
-            smooth = few and _smooth(line.y)
-            looks = (line.colour.rgba(), line.dashed, line.faded, smooth)
-            if looks != self._pens[place]:
-                self._pens[place] = looks
-                item.setPen(_pen(line, smooth))
-                item.setZValue(-1 if line.faded else 0)
-            item.give(line.x, line.y, smooth)
-
-
-def _smooth(y: NDArray[np.float64]) -> bool:
-    """Whether a curve is drawn with soft edges: those of a long way up and down would take too long."""
-    if not 1 < len(y) <= FEW:
-        return len(y) < 2
-    height = float(np.ptp(y))
-    return height == 0 or float(np.abs(np.diff(y)).sum()) <= WAY * height
-
-
-def _pen(line: Line, smooth: bool) -> Any:
-    colour = QColor(line.colour)
-    if line.faded:
-        colour.setAlpha(FADED)
-    style = Qt.PenStyle.DashLine if line.dashed else Qt.PenStyle.SolidLine
-    return pyqtgraph.mkPen(colour, width=1.6 if smooth else 1, style=style)
 
 
 class Chart(QWidget):
@@ -177,6 +80,7 @@ class Chart(QWidget):
             mine = [line for line in lines if line.group == group]
             strip.show_lines(mine, few)
             self._name(group, mine, bottom)
+        self._share_room()
         if fresh or mark != self._mark:
             self._mark = mark
             self._draw_mark()
@@ -240,33 +144,35 @@ class Chart(QWidget):
         units = list(dict.fromkeys(line.unit for line in lines if line.unit))
         last = strip is list(self.strips.values())[-1]
         words = f"{group}, {units[0]}" if units and group and ", " not in group else group or ", ".join(units)
+        words = "" if strip.lanes.labels else words
         below = bottom if last else ""
         if (strip.getAxis("left").labelText, strip.getAxis("bottom").labelText) != (words, below):
             strip.name_sides(below, words)
             strip.show_titles()
-            strip.getAxis("left").setWidth(self._left_px)
         dash = {True: "┅", False: "━"}
-        names = dict.fromkeys((line.label, line.colour.name(), line.dashed) for line in lines if not line.faded)
-        text = "&nbsp;&nbsp;&nbsp;".join(
-            f'<span style="color:{colour}">{dash[dashed]} {label}</span>' for label, colour, dashed in names
+        names = dict.fromkeys(
+            (line.label, line.colour.name(), line.dashed) for line in lines if not line.faded and not line.track
         )
-        legend = strip.legend
-        if legend.text() != text:
-            legend.setText(text)
-            legend.setFont(look().small_font())
-            ground = look().colour("surface")
-            ground.setAlpha(200)
-            palette = legend.palette()
-            palette.setColor(QPalette.ColorRole.Window, ground)
-            legend.setPalette(palette)
-            legend.adjustSize()
-            legend.move(self._left_px + 12, 4)
-            legend.raise_()
+        strip.show_legend(f"{3 * NO_BREAK} ".join(
+            f'<span style="color:{colour}">{dash[dashed]}{NO_BREAK}{escape(label).replace(" ", NO_BREAK)}</span>'
+            for label, colour, dashed in names
+        ))  # fmt: skip
 
-    @property
-    def _left_px(self) -> int:
-        """The same for all strips, so that their times stand under each other."""
-        return QFontMetrics(look().small_font()).horizontalAdvance("-000 000") + 34
+    def _share_room(self) -> None:
+        """Sides of the same width, so that times stand under each other; tracks have no more height than they need."""
+        strips = list(self.strips.values())
+        usual = QFontMetrics(look().small_font()).horizontalAdvance("-000 000") + 34
+        names = min(max((strip.lanes.widest for strip in strips), default=0), round(SIDE * self.width()))
+        alone = all(strip.lanes.labels for strip in strips)
+        for strip in strips:
+            strip.show_left(max(usual, names))
+            most = NO_LIMIT if alone else strip.lanes.most
+            if strip.maximumHeight() != most:
+                strip.setMaximumHeight(most)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._share_room()
 
     def fit(self) -> None:
         """Everything is shown."""

@@ -41,6 +41,7 @@ from device.curves import Derived
 from widgets.panel import set_text
 from widgets.parts.pieces import Pieces
 from widgets.parts.spin import indented
+from widgets.scope.bit_menu import Bits
 from widgets.scope.slot import Slot, as_wide_as_there_is_room
 
 SLOTS = 4
@@ -113,6 +114,15 @@ class Choices(QWidget):
                 return slot.colour
         return f"axis_{channel.axis.lower()}" if channel.axis else "quiet"
 
+    def bits_of(self, channel: Channel) -> Bits:
+        """Which bits of a channel are tracks; of one that is not chosen now, those that are worth it."""
+        return next((slot.bits for slot in self.slots if slot.channel == channel), None)
+
+    @property
+    def model(self) -> Model | None:
+        """Of the controller, or of the setup while none is known."""
+        return self._model
+
     @property
     def plan(self) -> Plan:
         return Plan(self.channels, self.every.currentIndex() + 1, self.count.value(), self.trigger)
@@ -174,7 +184,7 @@ class Choices(QWidget):
         known = channels(self._model)
         for slot in self.slots:
             slot.setVisible(slot.number <= self._model.recorded_channels)
-            slot.offer(known)
+            slot.offer(known, self._model, self._setup)
         with QSignalBlocker(self.axis), QSignalBlocker(self.input):
             self.axis.clear()
             self.axis.addItems(list(self._model.axes))

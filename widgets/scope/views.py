@@ -12,14 +12,17 @@ from numpy.typing import NDArray
 from PySide6.QtGui import QColor
 
 from codegen.setup import Setup
+from device.bits import Signal, signals, worth
 from device.capture import Capture, Channel
 from device.curves import Curve, Window, curves, evenly, scaled, spectrum, straight
 from device.roll import Line as Rolled
 from device.roll import Roll
+from device.waves import Wave, drawn, levels
 from widgets.parts.look import look
 from widgets.scope.chart import Line
 from widgets.scope.choices import Choices
 from widgets.scope.readings import Column
+from widgets.scope.timings import Level
 
 Values = NDArray[np.float64]
 MOST_OF_A_SPECTRUM = 1 << 15  # live values, the newest of them; more would hold the window up
@@ -34,6 +37,7 @@ class Picture:
     lines: Sequence[Line]
     bottom: str
     columns: Callable[[float, float], list[Column]]
+    levels: Callable[[float, float], Sequence[Level]] = lambda low, high: ()  # what tracks say, likewise
     step: float = 0.001
     mark: tuple[float, float] | None = None
     equal: bool = False
@@ -49,19 +53,32 @@ class Views:
 
     def over_time(self, capture: Capture, overlaid: Sequence[Capture]) -> Picture:
         """The capture, those laid over it faded."""
-        own = [self._line(each, capture.times, each.values, capture.channels) for each in self._curves(capture)]
-        lines = list(own)
+        own, tracks = self._over_time(capture)
+        lines = [*own, *(self._track(each) for each in tracks)]
         for other in overlaid:
-            lines += [
-                self._line(each, other.times, each.values, other.channels, faded=True) for each in self._curves(other)
-            ]
+            curves_below, tracks_below = self._over_time(other, faded=True)
+            lines += [*curves_below, *(self._track(each, faded=True) for each in tracks_below)]
         lines = _by_unit(lines)
         triggered = capture.moments is None and capture.trigger_text != "at once"
         bottom = "Time from the trigger, s" if triggered else "Time, s"
         if capture.moments is not None:
             bottom = SINCE
         mark = (0.0, capture.early_s) if triggered else None
-        return Picture(lines, bottom, _read_off(own), capture.interval_s, mark)
+        return Picture(lines, bottom, _read_off(own), lambda low, high: tracks, capture.interval_s, mark)
+
+    def _over_time(self, capture: Capture, faded: bool = False) -> tuple[list[Line], list[Level]]:
+        """Curves, and the levels of what is drawn bit by bit."""
+        lines, tracks = [], []
+        for each in curves(capture, self._choices.shown):
+            bits = self._bits(capture, each)
+            tracks += [Level(signal, self._colour(each.channel), wave) for signal, wave in bits]
+            if not bits:
+                lines.append(self._line(each, capture.times, each.values, capture.channels, faded))
+        return lines, tracks
+
+    def _bits(self, capture: Capture, curve: Curve) -> tuple[tuple[Signal, Wave], ...]:
+        """Those of a curve that are drawn by themselves."""
+        return () if curve.derived is not None else drawn(capture, curve.channel, self._choices.bits_of(curve.channel))
 
     def names(self, capture: Capture) -> list[str]:
         """What can be drawn over each other."""
@@ -90,12 +107,26 @@ class Views:
     # ---------------------------------------------------------------------- live
 
     def rolled(self, roll: Roll, channels: Sequence[Channel], setup: Setup | None) -> tuple[Rolled, ...]:
-        """The curves of the live roll, with what is derived."""
-        return roll.lines(channels, self._choices.shown, setup)
+        """The curves of the live roll, with what is derived; what is drawn bit by bit as one of each."""
+        found: list[Rolled] = []
+        for each in roll.lines(channels, self._choices.shown, setup):
+            known = signals(each.channel, setup, self._choices.model, live=True) if each.derived is None else ()
+            wanted = self._choices.bits_of(each.channel)
+            if not known or wanted == ():
+                found.append(each)
+                continue
+            changes = roll.changes(each.channel)
+            changed = [signal.bit.number for signal in known if changes.changed >> signal.bit.number & 1]
+            found += [
+                dc.replace(each, label=signal.label, group=LEVELS, signal=signal, changes=changes)
+                for signal in worth(known, wanted, changed, live=True)
+            ]
+        return tuple(found)
 
     def live(self, rolled: Sequence[Rolled], low: float, high: float) -> Picture:
         """A stretch of time."""
         kinds, lines = [each.channel for each in rolled if each.derived is None], []
+        bits, rolled = [each for each in rolled if each.signal], [each for each in rolled if not each.signal]
         for each in rolled:
             x, y = each.track.seen(low, high)
             curve = each.curve(y)
@@ -114,7 +145,15 @@ class Views:
                 found.append(Column(line.label, line.unit, line.colour, x, y / each.scale, measured=whole))
             return found
 
-        return Picture(lines, SINCE, columns, NOT_LIVE)
+        def levels(start: float, end: float) -> list[Level]:
+            return [
+                Level(each.signal, self._colour(each.channel), each.changes.wave(each.signal, start, end))
+                for each in bits
+                if each.signal is not None and each.changes is not None
+            ]
+
+        tracks = [self._track(each) for each in levels(low, high)]
+        return Picture([*lines, *tracks], SINCE, columns, levels, NOT_LIVE)
 
     def live_over_each_other(
         self, rolled: Sequence[Rolled], low: float, high: float, sides: tuple[str, str]
@@ -145,8 +184,19 @@ class Views:
 
     # ------------------------------------------------------------------- details
 
-    def _curves(self, capture: Capture) -> tuple[Curve, ...]:
-        return curves(capture, self._choices.shown)
+    def _curves(self, capture: Capture) -> list[Curve]:
+        """Those that can be drawn over each other, and as spectra: what is drawn bit by bit is 0 and 1."""
+        found: list[Curve] = []
+        for each in curves(capture, self._choices.shown):
+            found += [
+                dc.replace(each, label=signal.label, group=LEVELS, values=levels(each.values, signal.bit))
+                for signal, _ in self._bits(capture, each)
+            ] or [each]
+        return found
+
+    def _track(self, level: Level, faded: bool = False) -> Line:
+        x, y = level.wave.corners()
+        return Line(level.signal.label, "", LEVELS, level.colour, x, y, faded=faded, track=True)
 
     def _colour(self, channel: Channel) -> QColor:
         return look().colour(self._choices.colour_of(channel))
@@ -193,10 +243,11 @@ class Views:
             columns.append(Column(curve.label, curve.unit, line.colour, line.x, line.y, peak))
         how = "" if interval_s is not None else ", made even"
         words = f"Frequency, Hz · window: {window} · {count} values{how}"
-        return Picture(_by_unit(lines), words, lambda low, high: columns, step)
+        return Picture(_by_unit(lines), words, lambda low, high: columns, step=step)
 
 
 SINCE = "Time since Live began, s"
+LEVELS = "On and off"  # the strip of all tracks
 
 
 def _read_off(lines: Sequence[Line]) -> Callable[[float, float], list[Column]]:
