@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from enum import StrEnum
 from typing import Any
 
@@ -16,6 +17,7 @@ import resources
 from widgets.parts.look import PROPERTY, Look
 from widgets.parts.pieces import DRESSED, Pieces, in_breaths
 
+BREATH_S = 0.012  # more than others take: nothing is painted meanwhile
 OWN_STYLE = Qt.WidgetAttribute.WA_SetStyle
 
 
@@ -82,27 +84,49 @@ class Theme(QObject):
             self.making.finish()
 
     def _pieces(self, wanted: Look) -> Iterator[None]:
-        """The sheet, then the widgets that there are, a few at a time: all at once takes Qt a third of a second."""
+        """The sheet, then the widgets that there are, a few at a time: all at once takes Qt a third of a second.
+
+        What is in sight stays as it was until all of it is ready: half of each theme could not be read.
+        """
         there = [each for each in everything() if each.testAttribute(DRESSED) and not each.testAttribute(OWN_STYLE)]
-        there.sort(key=lambda widget: not widget.isVisible())
+        behind = {each for each in there if not each.isVisible() or each.visibleRegion().isEmpty()}
+        in_sight = [each for each in there if each not in behind]
         yield
-        there = [each for each in there if shiboken6.isValid(each)]
-        for widget in there:  # as if none were dressed: Qt passes over those
+        with _still(each for each in QApplication.topLevelWidgets() if each.isVisible()):
+            self._put_on(wanted, [each for each in there if shiboken6.isValid(each)])
+            yield
+            yield from in_breaths(_dressed_anew(in_sight), breath_s=BREATH_S)
+            yield
+        yield
+        yield from in_breaths(_dressed_anew(behind), breath_s=BREATH_S)
+
+    def _put_on(self, wanted: Look, there: list[QWidget]) -> None:
+        """For what comes from now on; what is there is passed over by Qt, as if it were not dressed yet."""
+        for widget in there:
             widget.setAttribute(DRESSED, False)
             widget.setAttribute(OWN_STYLE, True)
-        self._put_on(wanted)
-        for widget in there:
-            widget.setAttribute(DRESSED, True)
-            widget.setAttribute(OWN_STYLE, False)
-        yield
-        yield from in_breaths(_dressed_anew(there))
-
-    def _put_on(self, wanted: Look) -> None:
         application = self._application
         application.setFont(wanted.body_font())
         application.setPalette(make_palette(wanted))
         application.setStyleSheet("")  # over another sheet Qt dresses each widget once for everything around it
         application.setStyleSheet(style_sheet(self._table, wanted))
+        for widget in there:
+            widget.setAttribute(DRESSED, True)
+            widget.setAttribute(OWN_STYLE, False)
+
+
+@contextmanager
+def _still(windows: Iterable[QWidget]) -> Iterator[None]:
+    """Meanwhile nothing of these is painted."""
+    held = [each for each in windows if each.updatesEnabled()]
+    for window in held:
+        window.setUpdatesEnabled(False)
+    try:
+        yield
+    finally:
+        for window in held:
+            if shiboken6.isValid(window):
+                window.setUpdatesEnabled(True)
 
 
 def everything() -> list[QWidget]:
@@ -111,7 +135,7 @@ def everything() -> list[QWidget]:
     return [widget for window in windows for widget in (window, *window.findChildren(QWidget))]
 
 
-def _dressed_anew(widgets: list[QWidget]) -> Iterator[None]:
+def _dressed_anew(widgets: Iterable[QWidget]) -> Iterator[None]:
     """Each for the sheet of now, as Qt does it: polished, then told."""
     told = QEvent(QEvent.Type.StyleChange)
     for widget in widgets:

@@ -101,3 +101,10 @@ def test_the_first_values_come_with_the_panel_that_is_in_sight(stage: Stage, dis
         tick(stage)
     assert set(stage.studio.display.axes) == {"X", "Y"}
     assert rig.controller.last().value("position.x") == 0
+
+
+def test_offline_no_rate_of_reading_is_told(stage: Stage, display: Panel) -> None:
+    assert "reads" in stage.studio.display.rate.text()
+    stage.studio.connection.go_offline()
+    stage.go(5)
+    assert stage.studio.display.rate.text() == ""

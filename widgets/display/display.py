@@ -83,6 +83,7 @@ class DisplayPanel(Panel):
 
     def show_controller(self) -> None:
         self._voltages.hide()
+        set_text(self.rate, "")
         self._show_linked()
 
     def show_document(self, old: Document | None, new: Document) -> None:

@@ -41,11 +41,13 @@ class Pieces:
             pass
 
 
-def in_breaths(making: Iterator[object], clock: Callable[[], float] = time.perf_counter) -> Iterator[None]:
+def in_breaths(
+    making: Iterator[object], clock: Callable[[], float] = time.perf_counter, breath_s: float = BREATH_S
+) -> Iterator[None]:
     """The same in fewer pieces: small ones together, as far as they take no longer than a breath."""
     began = clock()
     for _ in making:
-        if clock() - began >= BREATH_S:
+        if clock() - began >= breath_s:
             yield
             began = clock()
 
