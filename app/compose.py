@@ -290,6 +290,7 @@ class Studio(QObject):
         window.resize(window.screen().availableSize().boundedTo(QSize(1400, 860)))
         window.first_shown.connect(self.desk.restore)
         window.stop.connect(self.connection.stop)
+        window.came.connect(self.tick.look)
         window.closing.connect(self.leaving.asked)
         window.status.progress.cancelled.connect(self.run.cancel)
         window.submenus["recent"].aboutToShow.connect(lambda: self.desk.fill_recent(self.files))

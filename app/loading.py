@@ -17,7 +17,9 @@ MODULES = (
     "widgets.jog.one_axis", "widgets.teach.parts", "widgets.scope.body", "widgets.tuner.pages", "widgets.tuner.plots",
     "device.values", "device.tuning.run", "device.tuning.entry", "device.capturing", "device.roll",
     "device.setup_transfer", "widgets.setup.window", "widgets.help.panel", "app.commissioning",
-    "widgets.commissioning.window", "widgets.compare.window", "widgets.backup.window",
+    "app.commissioning_pages", "widgets.commissioning.window", "widgets.compare.window", "widgets.backup.window",
+    "widgets.connect.serial_setup", "widgets.connect.doctor", "widgets.options.page", "widgets.editor.window",
+    "widgets.program.printing_pack", "widgets.backup.handover", "app.help_tables",
 )  # fmt: skip
 
 

@@ -90,6 +90,11 @@ class Tick(QObject):
             self._show(self._to_show[0])
         return True
 
+    def look(self, panel: Panel) -> None:
+        """A panel has come to the front: what stood in it then may not hold any more, and is not seen for a moment."""
+        if self._controller is not None and panel.making.done and panel not in self._to_show and panel in self._panels:
+            panel.refresh(self._controller.last())
+
     def when_done(self, future: Future[Any], call: Callable[[Future[Any]], None]) -> None:
         """Calls back, here in the window's own thread, once the future is finished; cancelled ones are forgotten."""
         self._pending.append((future, call))

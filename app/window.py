@@ -30,6 +30,7 @@ class Window(QMainWindow):
 
     stop = Signal()
     first_shown = Signal()
+    came = Signal(object)  # a panel that has come to the front
     closing = Signal(object)  # the QCloseEvent; the owner may ignore it
 
     def __init__(self, centre: QWidget) -> None:
@@ -85,6 +86,8 @@ class Window(QMainWindow):
         floats.addAction(title, lambda: dock.setFloating(not dock.isFloating()))
         for signal in (dock.dockLocationChanged, dock.visibilityChanged, dock.topLevelChanged):
             signal.connect(self._titles.start)
+        if isinstance(content, Panel):
+            dock.visibilityChanged.connect(lambda seen: self.came.emit(content) if seen else None)
         return dock
 
     def add_late(self, title: str, content: Panel, area: Qt.DockWidgetArea, shown: bool) -> None:

@@ -36,6 +36,7 @@ def display(stage: Stage) -> Panel:
     stage.studio.window.show()
     stage.connect("simulator", "ssc2")
     stage.studio.desk.bring("Display")
+    stage.until(lambda: not stage.studio.tick._to_show)  # the simulator is shown everywhere
     stage.go(5)
     assert len(colours(stage.studio.display)) > 3
     return stage.studio.display

@@ -38,6 +38,17 @@ def lost(stage: Stage) -> None:
     stage.until(lambda: stage.controller.state is State.LOST)
 
 
+def lost_meanwhile(stage: Stage) -> None:
+    """Every panel was worked with before."""
+    rig = stage.connect("machine")
+    stage.controller.take_control()
+    for title in stage.studio.window.docks:
+        stage.studio.desk.bring(title)
+        stage.go()
+    rig.cut()
+    stage.until(lambda: stage.controller.state is State.LOST)
+
+
 def enabled(content: QWidget) -> set[QWidget]:
     """What could be clicked or typed into now."""
     return {
@@ -86,7 +97,7 @@ def pages(content: QWidget) -> list[QAbstractButton]:
     return [each for each in found if each.isVisible() and each.isEnabled()]
 
 
-@pytest.mark.parametrize("state", [nobody, watched, lost], ids=lambda each: each.__name__)
+@pytest.mark.parametrize("state", [nobody, watched, lost, lost_meanwhile], ids=lambda each: each.__name__)
 def test_nothing_is_enabled_for_a_moment_only(state: Callable[[Stage], None], stage: Stage) -> None:
     stage.studio.late.making.finish()  # the panels, empty; each is filled when it is looked at
     state(stage)
