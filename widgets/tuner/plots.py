@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pyqtgraph
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from device.tuning.metrics import Response
 from widgets.parts.look import look
-from widgets.parts.pieces import Pieces
+from widgets.parts.pieces import Pieces, in_breaths
 from widgets.parts.plot import Plot
 from widgets.parts.turns import Turns
 
@@ -42,6 +42,9 @@ class StepPlot(QWidget):
         self._curves: tuple[Curve, ...] = ()
         self._scale, self._unit, self._letter, self._limit, self.error = 1.0, "counts", "X", 10.0, False
         self._turns = turns
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._later.timeout.connect(self._draw_on)
+        self._drawing: Iterator[None] = iter(())
         self.making = Pieces(self._pieces())
 
     def _pieces(self) -> Iterator[None]:
@@ -82,17 +85,33 @@ class StepPlot(QWidget):
         return tuple(curve.name for curve in self._curves)
 
     def draw(self) -> None:
-        """Everything anew, in the colours of now."""
-        self._turns.change((self.position, self.torque))
-        empty(self.position)
-        empty(self.torque)
+        """Everything anew, in the colours of now: a piece in each turn of the window, painted when all is there."""
+        for plot in (self.position, self.torque):
+            plot.setViewportUpdateMode(Plot.ViewportUpdateMode.NoViewportUpdate)
+        self._drawing = in_breaths(self._drawn_anew())
+        self._later.start()
+
+    def _draw_on(self) -> None:
+        if next(self._drawing, self) is self:
+            self._turns.change((self.position, self.torque))
+        else:
+            self._later.start()
+
+    def _drawn_anew(self) -> Iterator[None]:
+        for plot in (self.position, self.torque):
+            for item in plot.getPlotItem().listDataItems():
+                plot.removeItem(item)
+                yield
+            empty(plot)
+            yield
         unit = "counts" if self.error else self._unit
         self.position.name_sides("", f"{'Error' if self.error else 'Position'}, {unit}")
         self.torque.name_sides("Time, ms", "Volts")  # of the motor command; more words would be cut off
+        yield
         self._legend()
         for number, curve in enumerate(self._curves):
             front = number == len(self._curves) - 1
-            self._draw(curve if front else alike(curve, self._curves[-1]), number, front)
+            yield from self._draw(curve if front else alike(curve, self._curves[-1]), number, front)
 
     def _legend(self) -> None:
         legend = self.position.getPlotItem().legend
@@ -104,7 +123,8 @@ class StepPlot(QWidget):
         ground.setAlpha(220)
         legend.setBrush(ground)
 
-    def _draw(self, curve: Curve, number: int, front: bool) -> None:
+    def _draw(self, curve: Curve, number: int, front: bool) -> Iterator[None]:
+        yield
         response = curve.response
         times = np.arange(len(response.actual)) * response.period * MS
         begin = int(np.argmax(response.commanded != response.commanded[0])) if len(times) else 0
@@ -116,8 +136,10 @@ class StepPlot(QWidget):
             if front:
                 commanded = stroke(look().colour("quiet"), False, 1.2)
                 self.position.plot(times, response.commanded / self._scale, pen=commanded, name="Commanded")
+                yield
             item = self.position.plot(times, response.actual / self._scale, pen=pen, name=curve.name)
         item.setZValue(10 if curve.predicted else 0)  # the dashes lie over what they predicted
+        yield
         self.torque.plot(times, response.volts, pen=pen)
         at_limit = np.abs(response.volts) >= self._limit - 0.002
         if front and at_limit.any():
