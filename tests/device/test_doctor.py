@@ -311,6 +311,7 @@ class Silent(Transport):
 def test_a_socket_has_no_speed() -> None:
     """The speed belongs to the serial line behind it: the connection is spoken of."""
     with SimulatorProcess("ssc1", pty=False) as machine:
+        machine.state()  # it serves
         told = Doctor(machine.address, LineSettings(baud=9600, handshake="both"), Job()).examine()
     assert told.fine and "baud" not in told.sentence
     ticks = iter(range(10**6))

@@ -258,7 +258,8 @@ def test_line_tools_on_a_chain(source: Path, tmp_path: Path) -> None:
         assert called("upload", *line, "-o", str(kept)).returncode == 0
         assert kept.read_text() == SOURCE
         assert called("upload", *line, "-o", str(kept)).returncode == 2
-        assert called("upload", *line, "-o", str(kept), "--force").returncode == 0
+        again = called("upload", *line, "-o", str(kept), "--force")
+        assert again.returncode == 0, again.stderr
         typed = subprocess.run(
             [*COMMAND, "terminal", *line, "--control"],
             cwd=ROOT,
