@@ -30,6 +30,7 @@ MOST = 1 << 18  # values of a channel
 LEAST_S = 0.0139  # between two of them, so that an hour fits; a line at 38 400 baud carries no more
 PIECE = 64  # values to one coarse piece
 FINE = 4096  # values drawn one by one
+MOST_CHANGES = 8192  # of a channel of bits; beyond, it is drawn from pieces and not measured
 COLUMNS = 1000  # of a far view; more than a picture shows apart
 AT_ONCE = 50_000  # positions whose derived values are worked out in one go
 
@@ -185,6 +186,8 @@ class Changes:
         self.track = Track(most)
         self.changed = 0  # the bits that have ever changed
         self._source, self._last, self._next = source, math.nan, source.first
+        self._asked: tuple[float, ...] = ()
+        self._found: tuple[Values, Values, float, bool] = (np.zeros(0), np.zeros(0), math.nan, True)
 
     def follow(self) -> None:
         """Takes what is new, and at first everything that is there."""
@@ -201,11 +204,24 @@ class Changes:
         self.track.add(times[new], values[new])
 
     def wave(self, signal: Signal, low: float, high: float) -> Wave:
-        """The level of one bit over a stretch of time."""
+        """The level of one bit over a stretch of time; of very many changes as far as a picture shows them."""
+        asked = (low, high, self.track.count, self._source.count)
+        if asked != self._asked:  # once for all of its bits
+            self._asked, self._found = asked, self._stretch(low, high)
+        times, values, end, whole = self._found
+        return wave(times, values, end, signal.bit, whole)
+
+    def _stretch(self, low: float, high: float) -> tuple[Values, Values, float, bool]:
         times, values = self.track.between(low, high)
         times = np.maximum(times, low) if math.isfinite(low) else times
         end = max(min(high, self._source.last_time), float(times[-1])) if len(times) else math.nan
-        return wave(times, values, end, signal.bit)
+        if len(values) <= MOST_CHANGES:
+            return times, values, end, True
+        words = values.astype(np.int64)
+        starts = np.arange(0, len(words), -(-len(words) // COLUMNS))
+        both = np.empty(2 * len(starts))  # of each piece what was on all the time, then what was on at any time
+        both[0::2], both[1::2] = np.bitwise_and.reduceat(words, starts), np.bitwise_or.reduceat(words, starts)
+        return np.repeat(times[starts], 2), both, end, False
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,15 +34,16 @@ class Timing:
 
 @dataclass(frozen=True, eq=False)
 class Wave:
-    """A level over time: from `times[n]` on it is `on[n]`; the last one until `end`."""
+    """A level over time: from `times[n]` on it is `on[n]`; the last one until `end`. Not `whole`: only to be drawn."""
 
     times: Values
     on: NDArray[np.bool_]
     end: float
+    whole: bool = True
 
     def at(self, moment: float) -> bool | None:
         """The level at a moment; None where it is not known."""
-        if not len(self.times) or not self.times[0] <= moment <= self.end:
+        if not self.whole or not len(self.times) or not self.times[0] <= moment <= self.end:
             return None
         return bool(self.on[int(np.searchsorted(self.times, moment, side="right")) - 1])
 
@@ -54,7 +55,7 @@ class Wave:
 
     def timing(self, low: float, high: float) -> Timing:
         """Of the stretch from `low` to `high`, as far as it is known."""
-        if not len(self.times) or high < self.times[0] or low > self.end:
+        if not self.whole or not len(self.times) or high < self.times[0] or low > self.end:
             return Timing(math.nan, math.nan, 0, 0, math.nan)
         low, high = max(low, float(self.times[0])), min(high, self.end)
         ends = np.append(self.times[1:], self.end)
@@ -78,11 +79,11 @@ def waves(times: Values, values: Values, known: Sequence[Signal]) -> tuple[Wave,
     return tuple(wave(times[places], values[places], float(times[-1]), each.bit) for each in known)
 
 
-def wave(times: Values, values: Values, end: float, bit: Bit) -> Wave:
+def wave(times: Values, values: Values, end: float, bit: Bit, whole: bool = True) -> Wave:
     """The level of one bit of numbers with the times at which they came."""
     on = bit.on(values.astype(np.int64))
     turns = np.append(True, on[1:] != on[:-1])[: len(on)]
-    return Wave(times[turns], on[turns], end)
+    return Wave(times[turns], on[turns], end, whole)
 
 
 def levels(values: Values, bit: Bit) -> Values:

@@ -180,3 +180,18 @@ def test_a_file_keeps_the_byte_and_a_table_has_the_bits_beside_it(name: str, tmp
         assert table["Input 2 Door left"] == ("1", "0", "1") and table["Input 1"] == ("1", "1", "1")
         assert table["Forward limit X (1: at limit)"] == ("0", "1", "0")
         assert len(table) == 1 + 2 + 8 + 4
+
+
+def test_very_many_live_changes_are_drawn_from_pieces() -> None:
+    """Input 1 turns with each value, input 2 only once: the first is a band of both levels, the second one edge."""
+    roll, count = Roll(("inputs",)), 40_000
+    times = np.arange(count) * 0.02
+    roll.tracks["inputs"].add(times, np.arange(count) % 2 + np.where(times >= 400, 2.0, 0.0))
+    changes = roll.changes(INPUTS)
+    first, second, *_ = signals(INPUTS, None, None, live=True)
+    band, step = changes.wave(first, 0, 800), changes.wave(second, 0, 800)
+    assert 1500 < len(band.times) <= 2000 and not band.whole and math.isnan(band.timing(0, 800).on_s)
+    ((at, on),) = edges(step)
+    assert on and at == pytest.approx(400, abs=0.8) and band.at(5.0) is None
+    near = changes.wave(second, 399, 401)
+    assert near.whole and edges(near)[0][0] == pytest.approx(400) and near.timing(399, 401).rises == 1
