@@ -13,6 +13,7 @@ from codegen.rates import setting_words
 from codegen.setup import Unit
 from device.api import Kind
 from tests.stage import Stage
+from widgets.scope.body import Body
 
 
 def event_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
@@ -219,6 +220,7 @@ def scope_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go(3)
     yield "scope-live-x-y", dock
     body.bar.views.setCurrentText("Over time")
+    yield from _tracks(stage, body, dock)
     dock.resize(430, 560)
     stage.go(3)
     yield "scope-narrow", dock
@@ -230,6 +232,22 @@ def scope_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
     stage.go(3)
     yield "scope-docked", stage.studio.window
     dock.hide()
+
+
+def _tracks(stage: Stage, body: Body, dock: QWidget) -> Iterator[tuple[str, QWidget]]:
+    """Inputs, outputs and switches live, a lane for each."""
+    for slot, words in zip(body.choices.slots, ("Position X", "Inputs", "Outputs", "Switches X"), strict=True):
+        slot.what.setCurrentIndex(slot.what.findText(words))
+    for number in (3, 4, 6, 3):
+        for level in (0, 1):
+            stage.rig.simulation.stimulus(f"in{number}", level)
+            stage.go(8)
+    yield "scope-tracks", dock
+    for slot, words in zip(
+        body.choices.slots, ("Position X", "Commanded position X", "Motor command X", "Position Y"), strict=True
+    ):
+        slot.what.setCurrentIndex(slot.what.findText(words))
+    stage.go(3)
 
 
 def teach_scenes(stage: Stage) -> Iterator[tuple[str, QWidget]]:
