@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent
+from PySide6.QtGui import QColor, QFontMetrics, QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
 
 from widgets.parts.look import look
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from device.waves import Timing, Wave
 
 HEADS = ("At A", "At B", "On for", "Edges", "Period")
+WIDEST = ("not armed", "not armed", "9999.9 ms (99.9 %)", "99 ↑ 99 ↓", "9999.9 ms")
+BESIDE = 12  # px beside a text
 TIPS = (
     "The level at cursor A", "The level at cursor B", "How long it was on (a limit: active), and its share of the time",
     "How often it went on ↑ and off ↓", "From one going on to the next, on average; of few edges from off to off",
@@ -82,7 +84,9 @@ class Timings(QTableWidget):
         kind = (tuple(heads), cursors is None)
         if kind != self._kind:
             self._kind = kind
-            self.resizeColumnsToContents()
+            metrics = QFontMetrics(look().digits_font(look().body_points))
+            for column, text in enumerate(WIDEST):  # of live ones the texts grow with the time
+                self.setColumnWidth(column, metrics.horizontalAdvance(text) + BESIDE)
 
     def reading(self, column: str, label: str) -> str:
         """What stands in a track's row."""
