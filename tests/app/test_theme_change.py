@@ -18,7 +18,7 @@ from widgets.panel import show_role
 from widgets.parts.look import PROPERTY
 
 COMMAND = "pytest tests/app/test_theme_change.py"
-SEEN = ("Display", "Jog", "Teach", "Scope", "Tuner", "Terminal")
+SEEN = ("Display", "Jog", "Tuner", "Terminal")
 
 
 def everything_made(stage: Stage) -> None:
