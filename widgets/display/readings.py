@@ -130,8 +130,8 @@ def axis_shown(row: Row, letter: str, axis: Axis, now: float) -> AxisShown:
 
 
 def place_of(row: Row, low: str) -> str:
-    """The position of the same exchange as error and commanded position, where the controller's lines have room."""
-    return f"{AT}.{low}" if row.has(f"{AT}.{low}") else f"position.{low}"
+    """The newest position; at first the one of the same exchange as error and commanded position."""
+    return max((f"{AT}.{low}", f"position.{low}"), key=lambda key: row.time(key) if row.has(key) else -math.inf)
 
 
 def unit_of(axis: Axis) -> str:
