@@ -28,7 +28,7 @@ class Progress(QWidget):
         self.bar.setAccessibleName("Progress")
         self.cancel.clicked.connect(self.cancelled)
         row = QHBoxLayout(self)
-        row.setContentsMargins(0, 2, 0, 2)
+        row.setContentsMargins(0, 0, 0, 0)
         for widget in (self.words, self.bar, self.cancel):
             row.addWidget(widget)
         self.hide()

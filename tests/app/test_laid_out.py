@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from PySide6.QtCore import QEvent, QObject
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect
 from PySide6.QtWidgets import QApplication, QWidget
 
 from app.docks import Contained, settle
@@ -75,3 +75,23 @@ def test_more_room_is_asked_for_when_it_is_needed(stage: Stage) -> None:
     inside.setMinimumWidth(wide + 100)
     settle()
     assert dock.width() >= wide + 100 and inside.width() == around.width()
+
+
+def test_progress_takes_no_room_from_the_panels(stage: Stage) -> None:
+    window = stage.studio.window
+    window.resize(1280, 800)
+    window.show()
+    stage.connect("simulator", stage.studio.model())
+    stage.controller.take_control()
+    stage.go(10)
+    QApplication.processEvents()
+    before = window.centralWidget().height(), window.status.height()
+    stage.studio.actions["download"].trigger()
+    stage.until(lambda: window.status.progress.cancel.isVisible())
+    QApplication.processEvents()
+    cancel = window.status.progress.cancel
+    assert window.status.rect().contains(QRect(cancel.mapTo(window.status, QPoint()), cancel.size())), "all of it"
+    assert (window.centralWidget().height(), window.status.height()) == before
+    stage.until(lambda: not window.status.progress.isVisible())
+    stage.go(1)
+    assert (window.centralWidget().height(), window.status.height()) == before
