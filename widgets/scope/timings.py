@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 HEADS = ("At A", "At B", "On for", "Edges", "Period")
 WIDEST = ("not armed", "not armed", "9999.9 ms (99.9 %)", "99 ↑ 99 ↓", "9999.9 ms")
 BESIDE = 12  # px beside a text
+LEAST, ABOVE = 22, 13  # px: height of a row, and what of it is not text
 TIPS = (
     "The level at cursor A", "The level at cursor B", "How long it was on (a limit: active), and its share of the time",
     "How often it went on ↑ and off ↓", "From one going on to the next, on average; of few edges from off to off",
@@ -54,8 +55,9 @@ class Timings(QTableWidget):
         self.setAlternatingRowColors(True)
         self.setShowGrid(False)
         self.setWordWrap(False)
-        self.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.verticalHeader().setMinimumSectionSize(22)
+        rows = self.verticalHeader()  # of one line all: to fit them, Qt measures every row with each text that changes
+        rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+        rows.setMinimumSectionSize(LEAST)
         self.horizontalHeader().setHighlightSections(False)
         self._heads: list[tuple[str, str]] = []
         self._kind: tuple[object, ...] = ()
@@ -85,6 +87,7 @@ class Timings(QTableWidget):
         if kind != self._kind:
             self._kind = kind
             metrics = QFontMetrics(look().digits_font(look().body_points))
+            self.verticalHeader().setDefaultSectionSize(max(LEAST, metrics.height() + ABOVE))
             for column, text in enumerate(WIDEST):  # of live ones the texts grow with the time
                 self.setColumnWidth(column, metrics.horizontalAdvance(text) + BESIDE)
 
