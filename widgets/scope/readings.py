@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QHeaderView, QTableWidgetItem, QWidget
 
 from device.curves import Measured, measure
-from widgets.parts.look import look
+from widgets.scope.table import Table
 
 FIGURES = 5
 LONGEST_HEAD = 14  # characters in one line
@@ -66,21 +66,14 @@ def at(x: NDArray[np.float64], y: NDArray[np.float64], place: float) -> float:
     return float(y[before] if place - x[before] < x[after] - place else y[after])
 
 
-class Readings(QTableWidget):
+class Readings(Table):
     """A column for every curve; Ctrl+C copies it as text."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(len(ROWS), 0, parent)
-        self.setAccessibleName("Readings")
+        super().__init__(len(ROWS), 0, "Readings", parent)
         self.setVerticalHeaderLabels(list(ROWS))
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setAlternatingRowColors(True)
-        self.setShowGrid(False)
-        self.setWordWrap(False)
         self.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.verticalHeader().setMinimumSectionSize(22)
         self.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.horizontalHeader().setHighlightSections(False)
         self._heads: list[tuple[str, str]] = []
         self._kind: tuple[object, ...] = ()
 
@@ -104,7 +97,7 @@ class Readings(QTableWidget):
             inside = slice(np.searchsorted(column.x, low), np.searchsorted(column.x, high, side="right"))
             found = column.measured or measure(column.x[inside], column.y[inside])
             for row, text in enumerate(_texts(column, cursors, found)):
-                self._write(row, place, text)
+                self.write(row, place, text)
         for row in range(3):
             self.setRowHidden(row, cursors is None)
         for name in OF_TIME:
@@ -121,29 +114,9 @@ class Readings(QTableWidget):
             lines.append("\t".join([ROWS[row], *(self.text(row, place) for place in range(self.columnCount()))]))
         return "\n".join(lines)
 
-    def text(self, row: int, place: int) -> str:
-        item = self.item(row, place)
-        return item.text() if item is not None else ""
-
     def reading(self, row: str, label: str) -> str:
         """What stands in a row under a curve's name."""
         return self.text(ROWS.index(row), [head for head, _ in self._heads].index(label))
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_C and event.modifiers() == Qt.KeyboardModifier.ControlModifier:
-            QGuiApplication.clipboard().setText(self.words())
-            return
-        super().keyPressEvent(event)
-
-    def _write(self, row: int, place: int, text: str) -> None:
-        item = self.item(row, place)
-        if item is None:
-            item = QTableWidgetItem()
-            item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-            item.setFont(look().digits_font(look().body_points))
-            self.setItem(row, place, item)
-        if item.text() != text:
-            item.setText(text)
 
 
 def apart_words(cursors: Sequence[float] | None, spectral: bool) -> str:

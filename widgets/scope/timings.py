@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QFontMetrics, QGuiApplication, QKeyEvent
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
+from PySide6.QtGui import QColor, QFontMetrics
+from PySide6.QtWidgets import QHeaderView, QTableWidgetItem, QWidget
 
 from widgets.parts.look import look
 from widgets.scope.readings import DASH, seconds
+from widgets.scope.table import Table
 
 if TYPE_CHECKING:
     from device.bits import Signal
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 HEADS = ("At A", "At B", "On for", "Edges", "Period")
 WIDEST = ("not armed", "not armed", "9999.9 ms (99.9 %)", "99 ↑ 99 ↓", "9999.9 ms")
 BESIDE = 12  # px beside a text
-LEAST, ABOVE = 22, 13  # px: height of a row, and what of it is not text
+ABOVE = 13  # px of the height of a row that are not text
 TIPS = (
     "The level at cursor A", "The level at cursor B", "How long it was on (a limit: active), and its share of the time",
     "How often it went on ↑ and off ↓", "From one going on to the next, on average; of few edges from off to off",
@@ -42,23 +42,16 @@ class Level:
         return DASH if on is None else self.signal.bit.words[int(on)]
 
 
-class Timings(QTableWidget):
+class Timings(Table):
     """A row for every track; Ctrl+C copies it as text."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(0, len(HEADS), parent)
-        self.setAccessibleName("Readings of inputs, outputs and switches")
+        super().__init__(0, len(HEADS), "Readings of inputs, outputs and switches", parent)
         self.setHorizontalHeaderLabels(list(HEADS))
         for column, tip in enumerate(TIPS):
             self.horizontalHeaderItem(column).setToolTip(tip)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setAlternatingRowColors(True)
-        self.setShowGrid(False)
-        self.setWordWrap(False)
-        rows = self.verticalHeader()  # of one line all: to fit them, Qt measures every row with each text that changes
-        rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-        rows.setMinimumSectionSize(LEAST)
-        self.horizontalHeader().setHighlightSections(False)
+        # all of one line: to fit them, Qt would measure every row with each text that changes
+        self.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         self._heads: list[tuple[str, str]] = []
         self._kind: tuple[object, ...] = ()
         self.hide()
@@ -80,21 +73,20 @@ class Timings(QTableWidget):
         for row, level in enumerate(levels):
             at = [level.word(place) for place in cursors] if cursors is not None else ["", ""]
             for column, text in enumerate((*at, *_texts(level.wave.timing(low, high)))):
-                self._write(row, column, text)
+                self.write(row, column, text)
         for column in range(2):
             self.setColumnHidden(column, cursors is None)
         kind = (tuple(heads), cursors is None)
         if kind != self._kind:
             self._kind = kind
             metrics = QFontMetrics(look().digits_font(look().body_points))
-            self.verticalHeader().setDefaultSectionSize(max(LEAST, metrics.height() + ABOVE))
+            self.verticalHeader().setDefaultSectionSize(metrics.height() + ABOVE)
             for column, text in enumerate(WIDEST):  # of live ones the texts grow with the time
                 self.setColumnWidth(column, metrics.horizontalAdvance(text) + BESIDE)
 
     def reading(self, column: str, label: str) -> str:
         """What stands in a track's row."""
-        item = self.item([head for head, _ in self._heads].index(label), HEADS.index(column))
-        return item.text() if item is not None else ""
+        return self.text([head for head, _ in self._heads].index(label), HEADS.index(column))
 
     def words(self) -> str:
         """The table as text, for the clipboard."""
@@ -102,22 +94,6 @@ class Timings(QTableWidget):
         lines = ["\t".join(["", *shown])]
         lines += ["\t".join([label, *(self.reading(head, label) for head in shown)]) for label, _ in self._heads]
         return "\n".join(lines)
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_C and event.modifiers() == Qt.KeyboardModifier.ControlModifier:
-            QGuiApplication.clipboard().setText(self.words())
-            return
-        super().keyPressEvent(event)
-
-    def _write(self, row: int, column: int, text: str) -> None:
-        item = self.item(row, column)
-        if item is None:
-            item = QTableWidgetItem()
-            item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-            item.setFont(look().digits_font(look().body_points))
-            self.setItem(row, column, item)
-        if item.text() != text:
-            item.setText(text)
 
 
 def _texts(timing: Timing) -> tuple[str, str, str]:
